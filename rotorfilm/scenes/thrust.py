@@ -11,6 +11,7 @@ from scipy.optimize import brentq
 
 from ..analysis import coefficients, equilibrium
 from ..bearings.assemblies import Parallel
+from ..bearings.films.turbulence import stiffening
 from ..bearings.own_reaction import as_reaction
 from ..bearings.thrust import TURBULENT_PADS, ThrustBearing, ThrustLosses, TiltingThrustBearing, double_acting
 from ..core.errors import InputError, require_number, require_positive
@@ -373,7 +374,7 @@ def thrust_numbers(rest: ThrustRest, oil: Lubricant) -> dict[str, float]:
     return {
         "reynolds": flow,
         "turbulent": TURBULENT_PADS,
-        "turbulence": 0.0136 * flow**0.9 / 12.0 if flow > TURBULENT_PADS else 0.0,
+        "turbulence": stiffening(flow) if flow > TURBULENT_PADS else 0.0,
         "tilt": np.inf if pads.tilts else 1e3 * losses.minimum_film / pads.outer_radius,
         "warming": warming,
         "thinning": -np.expm1(-0.5 * oil.thinning * warming),

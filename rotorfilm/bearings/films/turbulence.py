@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...core.errors import InputError, require_kind, require_positive
+from ...core.errors import InputError, require_finite, require_kind, require_positive
 from ...core.inputs import quantities
 from ...core.model import Array
 from .mobility import Mobility
@@ -38,7 +38,10 @@ WIDTH = 2.0
 """Reynolds number at the end of the band over that at its start, where a band is not given."""
 
 TO_ONSET, CELLS, SPREAD = 160, 1024, 30.0
-"""Cells of the splines below the onset and in all, and where nodes without a band cease to be uniform."""
+"""Cells of the splines below the onset, fewest in all, and where nodes without a band cease to be uniform."""
+
+LAST = 1e5
+"""Local Reynolds number to which the splines reach at least; beyond it the factors are powers of it [1]."""
 
 PRANDTL_POWER = 0.29
 """Power of the Prandtl number by which the heat transfer of a turbulent film grows."""
@@ -60,6 +63,11 @@ def onset(radius: float, clearance: float) -> float:
 def ng_pan(reynolds: Array) -> Array:
     """Return k_x, k_z and tau_c of the fit to the theory of Ng & Pan (1965), shape (3, ...)."""
     return np.stack([12.0 + 0.0136 * reynolds**0.9, 12.0 + 0.0043 * reynolds**0.96, _couette(reynolds)])
+
+
+def stiffening(reynolds: float) -> float:
+    """Return how much more a turbulent film resists flow along it than a laminar one, by `ng_pan` [1]."""
+    return float(ng_pan(np.array(reynolds))[0]) / 12.0 - 1.0
 
 
 def constantinescu(reynolds: Array) -> Array:
@@ -217,19 +225,42 @@ class Turbulence:
             object.__setattr__(self, "band", band)
 
     def edges(self, radius: float, clearance: float) -> tuple[float, float] | None:
-        """Return the Reynolds numbers of the band in a bearing of these dimensions [m]; None without one."""
+        """Return the Reynolds numbers of the band in a bearing of these dimensions [m]; None without one.
+
+        Raises
+        ------
+        InputError
+            If a dimension is not finite and positive.
+        """
+        require_positive("radius", radius)
+        require_positive("clearance", clearance)
         if isinstance(self.band, bool):
             begins = onset(radius, clearance)
             return (begins, WIDTH * begins) if self.band else None
         return self.band
 
     def factors(self, reynolds: ArrayLike, radius: float, clearance: float) -> Array:
-        """Return k_x, k_z and tau_c at local Reynolds numbers (...) in such a bearing [m], shape (3, ...)."""
-        local = np.asarray(reynolds, dtype=float)
+        """Return k_x, k_z and tau_c at local Reynolds numbers (...) in such a bearing [m], shape (3, ...).
+
+        Raises
+        ------
+        InputError
+            If a Reynolds number is not finite or negative, or a dimension is not finite and positive.
+        """
+        local = require_finite("reynolds", reynolds)
+        if (local < 0.0).any():
+            raise InputError(f"reynolds must not be negative, got {local.min():.6g}")
         return _blended(self.closure, self.edges(radius, clearance), local)
 
     def mobility(self, radius: float, clearance: float, density: float) -> Mobility:
-        """Return the mobility of oil of a density [kg/m3] in a bearing of these dimensions [m]."""
+        """Return the mobility of oil of a density [kg/m3] in a bearing of these dimensions [m].
+
+        Raises
+        ------
+        InputError
+            If the density or a dimension is not finite and positive.
+        """
+        require_positive("density", density)
         own = _splines(self.closure, self.edges(radius, clearance))
         return replace(own, density=self.density or density)
 
@@ -287,21 +318,25 @@ def _splines(closure: str, edges: tuple[float, float] | None) -> Mobility:
     """Return the mobility without a density; a band begins at a node, below which the film is laminar."""
     from .map_fit import quintic_coefficients
 
-    scale, step = (
-        (SPREAD, math.log1p(1e5 / SPREAD) / CELLS) if edges is None else (edges[0], math.log(2.0) / TO_ONSET)
-    )
-    nodes = scale * np.expm1(step * np.arange(CELLS + 1))
+    scale, cells = (SPREAD, CELLS) if edges is None else (edges[0], _cells(edges[0]))
+    step = math.log1p(LAST / SPREAD) / CELLS if edges is None else math.log(2.0) / TO_ONSET
+    nodes = scale * np.expm1(step * np.arange(cells + 1))
     k_x, k_z, tau = _blended(closure, edges, nodes)
     logarithms = np.log(np.stack([12.0 / k_x, 12.0 / k_z, np.ones_like(tau), tau], axis=1))
     coefficients = quintic_coefficients(logarithms).T
     if edges is not None:
         coefficients[:, : TO_ONSET + 5] = 0.0
     coefficients[2] = 0.0
-    return Mobility(coefficients=coefficients, scale=scale, last_node=step * CELLS)
+    return Mobility(coefficients=coefficients, scale=scale, last_node=step * cells)
+
+
+def _cells(scale: float) -> int:
+    """Return the cells of splines whose band begins at a Reynolds number, out to `LAST`."""
+    return max(CELLS, math.ceil(math.log2(1.0 + LAST / scale) * TO_ONSET))
 
 
 @lru_cache(maxsize=16)
 def _transfer_table(prandtl: float) -> tuple[Array, Array]:
     """Return nodes ln(1 + Re/30) and the logarithms of Nu and N_w there."""
-    nodes = np.linspace(0.0, math.log1p(1e5 / SPREAD), 400)
+    nodes = np.linspace(0.0, math.log1p(LAST / SPREAD), 400)
     return nodes, np.log(heat_transfer(SPREAD * np.expm1(nodes), prandtl))

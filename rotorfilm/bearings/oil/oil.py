@@ -26,7 +26,7 @@ from ...core.inputs import arguments, quantities, quantity
 from ...core.model import Array
 from ...core.units import CELSIUS
 from ...native.loss_kernels import OilTable
-from ..films.turbulence import TAYLOR, TURBULENT, is_turbulent, onset
+from ..films.turbulence import TAYLOR, TURBULENT, is_turbulent, onset, stiffening
 from ..reaction import FilmUnits
 
 # How the viscosity of an oil falls with its temperature: the laws that an `Oil` may have.
@@ -647,10 +647,10 @@ class FilmNumbers(NamedTuple):
     def turbulence(self) -> float:
         """About how much stiffer than the laminar film this one is [1]; 0 where it is laminar.
 
-        The 12 of the laminar film becomes 12 + 0.0136 Re^0.9 (Ng and Pan, 1965).
+        It is that of the fit to Ng and Pan (1965), `ng_pan`.
         """
         laminar = self.taylor <= TAYLOR and self.reynolds <= TURBULENT
-        return 0.0 if laminar else 0.0136 * self.reynolds**0.9 / 12.0
+        return 0.0 if laminar else stiffening(self.reynolds)
 
 
 def film_reynolds(
@@ -693,9 +693,9 @@ class LaminarFilm(FilmUnits):
         ----------
         speed : float [rad/s]
         temperature : float, optional [K]
-            Temperature of the oil in the mean; by default that of the bearing.
+            Mean temperature of the oil; by default that of the bearing.
         hottest : float, optional [K]
-            Of the oil; by default as warm as the mean.
+            Highest temperature of the oil; by default it is the mean one.
         """
         oil, viscosity, density = self.oil, self.film_viscosity, DENSITY
         at = self.temperature if temperature is None else temperature
@@ -713,5 +713,5 @@ class LaminarFilm(FilmUnits):
                 f"the film has Reynolds number {found.reynolds:.4g} and Taylor number {found.taylor:.3g} at "
                 f"{speed:.6g} rad/s and {density:.4g} kg/m3, beyond the Reynolds number {most:.4g} at which "
                 f"{begins}: a real film takes more power and gets warmer than this laminar one, and "
-                "turbulence=Turbulence() models it"
+                "turbulence=rotorfilm.bearings.Turbulence() models it"
             )

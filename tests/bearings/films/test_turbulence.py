@@ -69,6 +69,36 @@ def test_splines_are_the_closure_and_exactly_laminar_below_the_onset(closure):
     assert_allclose(unbanded[3], turbulence.CLOSURES[closure](X[20:])[2], rtol=1e-5)
 
 
+@pytest.mark.parametrize("band", [(1.0, 2.0), (10.0, 20.0), (100.0, 1e4), (1300.0, 2600.0)])
+def test_splines_are_the_closure_to_the_last_reynolds_number_whatever_the_band(band):
+    effect, X = Turbulence(band=band), np.geomspace(1.0, turbulence.LAST, 500)
+    k_x, k_z, tau = effect.factors(X, 0.25, 5e-4)
+    found = effect.mobility(0.25, 5e-4, 870.0).factors(X)[0]
+    assert_allclose(found, [12.0 / k_x, 12.0 / k_z, np.ones_like(X), tau], rtol=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"reynolds": [-1000.0, 5.0]}, "reynolds must not be negative, got -1000"),
+        ({"reynolds": [5.0, math.nan]}, "reynolds must be finite"),
+        ({"reynolds": math.inf}, "reynolds must be finite"),
+        ({"radius": -0.1}, "radius must be finite and positive, got -0.1"),
+        ({"clearance": math.nan}, "clearance must be finite and positive, got nan"),
+    ],
+)
+def test_factors_of_impossible_films_are_refused(change, message):
+    with pytest.raises(InputError, match=message):
+        Turbulence().factors(**{"reynolds": 1000.0, "radius": 0.25, "clearance": 1e-4, **change})
+
+
+def test_a_mobility_names_what_it_refuses():
+    with pytest.raises(InputError, match="density must be finite and positive, got -5"):
+        Turbulence().mobility(0.25, 1e-4, density=-5.0)
+    with pytest.raises(InputError, match="radius must be finite and positive, got nan"):
+        Turbulence().mobility(math.nan, 1e-4, 870.0)
+
+
 def critical_mass(bearing, position):
     """Return the mass of a rigid rotor [t] at the limit of stability, by its quadratic equation."""
     film = rf.coefficients(bearing, position, SPEED)
@@ -179,7 +209,9 @@ def test_derivatives_by_speed_and_viscosity_are_those_of_differences(name):
 
 def test_a_laminar_film_above_its_onset_warns_and_a_turbulent_one_does_not():
     laminar = rf.JournalBearing(**SIZE, **GIVEN)
-    with pytest.warns(ValidityWarning, match=r"Reynolds number 921.3 .* models it"):
+    with pytest.warns(
+        ValidityWarning, match=r"Reynolds number 921.3 .* turbulence=rotorfilm.bearings.Turbulence\(\) models"
+    ):
         rf.equilibrium(laminar, LOAD, SPEED)
     with warnings.catch_warnings(action="error"):
         rf.equilibrium(replace(laminar, turbulence=Turbulence()), LOAD, SPEED)
