@@ -83,8 +83,8 @@ def test_links_lead_somewhere(target):
 JOBS = re.findall(r"^\| .*?\]\((\S+?)\)", (DOCS / "jobs.md").read_text(encoding="utf-8"), re.MULTILINE)
 
 
-def test_there_are_eight_jobs():
-    assert len(JOBS) == len(set(JOBS)) == 8
+def test_there_are_nineteen_jobs():
+    assert len(JOBS) == len(set(JOBS)) == 19
 
 
 @pytest.mark.parametrize("target", JOBS)
@@ -99,7 +99,8 @@ def test_a_job_is_short_and_ends_in_a_number(target):
         )
         text = snippets(text)[0]
         assert shown(text)
-    assert code_lines(text) <= MOST_LINES
+    eleven = JOBS.index(target) < 11  # they build their machine and draw pictures too
+    assert code_lines(text) <= (2 if eleven else 1) * MOST_LINES
     assert text.splitlines()[-1].startswith("print(")
 
 
