@@ -26,8 +26,8 @@ from .shared_tables import Lubricant, OiledTable, oil_remarks
 if TYPE_CHECKING:
     from .scene import Scene
 
-WEDGE = 50.0
-"""Film over the pivots or lands, over the least film, up to which that is sought."""
+NARROW, WEDGE = 0.5, 50.0
+"""Films over the pivots or lands, over the least film, between which that is sought."""
 
 MOST_PADS = 64
 """Most pads of one side."""
@@ -300,7 +300,9 @@ def rest_at_film(bearing: Any, film: float, speed: float) -> ThrustRest:
     def excess(over: float) -> float:
         return float(pads.minimum_film([over * film - pads.gap, 0.0, 0.0])) - film
 
-    place = np.array([film * brentq(excess, 1.0, WEDGE, rtol=1e-10) - pads.gap, 0.0, 0.0])
+    if not excess(NARROW) < 0.0 < excess(WEDGE):
+        raise InputError(f"smallest_film must be one that the pads can have over their lands, got {film!r}")
+    place = np.array([film * brentq(excess, NARROW, WEDGE, rtol=1e-10) - pads.gap, 0.0, 0.0])
     if isinstance(bearing, Parallel) and place[0] > 0.0:
         raise InputError(
             f"smallest_film must leave half of the play, {pads.gap!r} m, over pivots or lands, got {film!r}"

@@ -1,6 +1,7 @@
 """Scenes and questions of thrust bearings: what a table builds and refuses, answers, errors and remarks."""
 
 import math
+import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -104,6 +105,19 @@ def test_the_load_at_a_least_film_is_that_of_the_film_under_that_load():
     load = scene_of(THIN, TILTING, smallest, RUN, asked="thrust_load", tolerance=0.2).ask().value
     back = scene_of(THIN, TILTING, f"axial_load = {load!r}\ncells = [32, 16]\n", RUN).solve()
     assert back.equilibrium.minimum_film == pytest.approx(30e-6, rel=1e-8)
+
+
+@pytest.mark.parametrize("profile", [FIXED, 'crown = "10 um"\n', 'step_depth = "30 um"\n'])
+def test_the_load_of_fixed_pads_is_that_at_the_film_over_their_lands(profile):
+    load = scene_of(THIN, profile, 'smallest_film = "20 um"\n', RUN, asked="thrust_load", tolerance=0.2)
+    bearing = replace(scene_of(THIN, profile, RUN).thrust, cells=GRIDS[0]).build()
+    with warnings.catch_warnings(action="ignore"):
+        found = load.ask().rungs[0].value
+    assert found == pytest.approx(bearing.force([20e-6, 0.0, 0.0], np.zeros(3), SPEED)[0], rel=1e-8)
+    whole = THIN, 'step_depth = "30 um"\nstep_share = 1\nsmallest_film = "10 um"\n', RUN
+    deep = scene_of(*whole, asked="thrust_load")
+    with pytest.raises(rf.InputError, match="smallest_film must be one that the pads can have"):
+        deep.ask()
 
 
 def test_every_quantity_has_an_answer_within_its_estimate():
