@@ -51,9 +51,9 @@ def add_references(path: str | PathLike[str]) -> Path:
     """Add the files of FMI-LS-REF to a native FMU: `extra/org.fmi-standard.fmi-ls-ref/`.
 
     They are the values of all parameters (`parameters.ssv`, SSP) and a smoke test (`smoke_test.csv`, the
-    first rows of the reference trajectory). A model with a state also has this state in Co-Simulation at the end of
-    the default experiment, under the start values of the inputs (`warm_state.bin`, for this machine). The
-    manifest names them, and the reference trajectory as the validation experiment.
+    first rows of the reference trajectory). A model with a state also has this state in Co-Simulation at the
+    end of the default experiment, under the start values of the inputs (`warm_state.bin`, for this
+    machine). The manifest names them, and the reference trajectory as the validation experiment.
 
     Parameters
     ----------
