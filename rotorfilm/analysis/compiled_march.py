@@ -79,6 +79,8 @@ def simulate_rotor(
     The shaft is integrated exactly in its modes, and the film forces by collocation of order 7 with their
     exact derivatives (`native/loops/march.h`), all of it compiled. A step costs some ten microseconds.
 
+    On springs and dampers at constant speed the motion is exact at every sample, and no steps are taken.
+
     A `SpeedProfile` may change the gyroscopic effect and the rotating damping too. A shaft of many elements
     (more than 60 coordinates) is reduced to its lowest mode shapes. The run is repeated with shapes up to
     four times the frequency, until the journals of two runs agree. If they never agree, the whole shaft is
