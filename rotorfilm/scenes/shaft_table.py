@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import chain
 from typing import Annotated, Any
 
@@ -11,7 +12,7 @@ import numpy as np
 
 from .. import rotors
 from ..analysis import AxialStage, DisturbingStage, Impeller
-from ..bearings.journal import JournalBearing
+from ..bearings.journal import JournalBearing, MapFilm, MomentCarryingJournal, ReynoldsFilm, TiltLevel
 from ..bearings.linear import LinearBearing
 from ..bearings.seal import AnnularSeal
 from ..core.errors import InputError, SceneError, brief, require_positive
@@ -136,6 +137,12 @@ class DiskTable(reading.Taking):
         return replace(solid, skew=self.skew, skew_angle=self.skew_angle)
 
 
+TILTS = {level.value.replace(" ", "_"): partial(TiltLevel, level.value) for level in TiltLevel}
+"""Levels of a tilted journal by their names in scene files."""
+
+ANGLES = reading.Several(reading.Quantity("rad"), 2, 2, "two angles, about x and about y")
+
+
 @dataclass(frozen=True, kw_only=True)
 class BearingTable:
     """An entry of `shaft.bearings`: a journal bearing, an annular seal, or springs and dampers, at a node.
@@ -156,6 +163,13 @@ class BearingTable:
         With its added mass, which a run over time leaves out.
     support : Support or None
         Its housing; rigid unless given.
+    tilt : TiltLevel or None
+        How a journal bearing feels the tilt of the shaft, as `full` with the film over the whole length, or
+        `second_order`; not at all unless given.
+    bush_offset : (float, float) [m]
+        Place of the bush of a journal bearing with a tilt, beside the line of the shaft.
+    bush_tilt : (float, float) [rad]
+        Rotation of that bush about x and y.
     """
 
     name: str
@@ -165,8 +179,18 @@ class BearingTable:
     damping: float | Pair = 0.0
     seal: Annotated[AnnularSeal | None, reading.Table(SEAL)] = None
     support: rotors.Support | None = None
+    tilt: Annotated[TiltLevel | None, reading.named(TILTS)] = None
+    bush_offset: Annotated[tuple[float, float], reading.Several(reading.Quantity("m"), 2, 2)] = (0.0, 0.0)
+    bush_tilt: Annotated[tuple[float, float], ANGLES] = (0.0, 0.0)
 
     def __post_init__(self) -> None:
+        if self.tilt is not None and self.journal is None:
+            raise InputError(f"tilt must be left out without a journal, got {self.tilt}")
+        if self.tilt is None and (any(self.bush_offset) or any(self.bush_tilt)):
+            raise InputError(
+                "tilt must be given for a bush_offset or a bush_tilt, "
+                f"got {self.bush_offset!r} m and {self.bush_tilt!r} rad"
+            )
         if sum(kind is not None for kind in (self.journal, self.stiffness, self.seal)) != 1:
             raise InputError("journal, or else stiffness or seal, is required, got several or none")
         if self.journal is None or self.journal.has_lubricant:
@@ -181,19 +205,28 @@ class BearingTable:
             else replace(self, journal=self.journal.on(f"{where}.journal", lubricant))
         )
 
-    def build(self) -> JournalBearing | LinearBearing | AnnularSeal:
+    def build(self) -> JournalBearing | MomentCarryingJournal | LinearBearing | AnnularSeal:
         """Return the bearing."""
         if self.seal is not None:
             return self.seal
         if self.journal is not None:
             self.journal.require_law("a shaft")
-            return self.journal.bearing()
+            return self._tilted(self.journal.bearing())
         assert self.stiffness is not None  # checked in __post_init__
         return LinearBearing(stiffness=self.stiffness, damping=self.damping)
 
+    def _tilted(self, bearing: JournalBearing) -> JournalBearing | MomentCarryingJournal:
+        """Return a journal bearing that feels the tilt, if it does; the full level needs a film on a grid."""
+        if self.tilt is None:
+            return bearing
+        if self.tilt is TiltLevel.FULL and isinstance(bearing.film, MapFilm):
+            bearing = replace(bearing, film=ReynoldsFilm())
+        bush = {"bush_offset": self.bush_offset, "bush_tilt": self.bush_tilt}
+        return MomentCarryingJournal(bearing=bearing, level=self.tilt, **bush)
+
     def station(self) -> rotors.Station:
         """Return where it is."""
-        return reading.made_from(rotors.Station, self)
+        return reading.made_from(rotors.Station, self, feels_tilt=self.tilt is not None)
 
 
 class BearingList(reading.TableList):
