@@ -9,7 +9,7 @@ import inspect
 import re
 import sys
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -46,7 +46,7 @@ def plain(text: str) -> str:
     return " ".join(re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", text).split())
 
 
-def paragraphs(lines: list[str], first: int = 1) -> Iterator[Piece]:
+def paragraphs(lines: list[str], first: int = 1, plain: Callable[[str], str] = plain) -> Iterator[Piece]:
     """Yield the paragraphs, list items, headings and cells of a text, without code and formulas."""
     gathered: list[str] = []
     start, indent, fenced, blank, code = first, 0, False, True, False

@@ -48,19 +48,19 @@ class StabilityCurve(Readable):
     Attributes
     ----------
     name : str
-        Of the set of bearings.
+        Name of the set of bearings.
     cross_coupling : ndarray, shape (n_points,) [N/m]
-        Applied: from 0 to ten times the anticipated one, or to the decrement of zero.
+        Applied cross-coupled stiffness, from 0 to ten times the anticipated one, or until the decrement is 0.
     log_decrement : ndarray, shape (n_points,) [1]
     frequency : ndarray, shape (n_points,) [rad/s]
-        Of the whirl.
+        Frequency of the whirl.
     zero_cross_coupling : float [N/m]
         Q0, at which the decrement is 0; 0 where the rotor whirls by itself, inf where none was found up to a
         thousand times the anticipated cross-coupling.
     anticipated_decrement : float [1]
         delta_A, at the anticipated cross-coupling.
     other_growth : str
-        Empty, or what else grows at the anticipated cross-coupling.
+        Description of another motion that grows at the anticipated cross-coupling; empty if there is none.
     """
 
     name: str
@@ -137,15 +137,15 @@ class StabilityLevelOne(Drawable):
     Attributes
     ----------
     verdict : str
-        In plain words.
+        Verdict in plain words.
     level_two_required : bool
-        Whether a criterion wants an analysis of level II.
+        Whether a criterion requires an analysis of level II.
     speed : float [rad/s]
         Maximum continuous speed.
     anticipated_cross_coupling : float [N/m]
         QA, of all stages.
     stage_cross_coupling : ndarray, shape (n_stages,) [N/m]
-        Of each.
+        Anticipated cross-coupled stiffness of each stage.
     zero_cross_coupling : float [N/m]
         Q0, the smallest of all curves.
     margin : float [1]
@@ -153,9 +153,10 @@ class StabilityLevelOne(Drawable):
     anticipated_decrement : float [1]
         delta_A, the smallest of all curves.
     critical_speed_ratio : float [1]
-        CSR: maximum continuous speed / first undamped critical speed on rigid supports; seals are none.
+        CSR: maximum continuous speed / first undamped critical speed on rigid supports. Seals do not count as
+        supports.
     average_density : float or None [kg/m3]
-        Of the gas; None without impellers.
+        Average density of the gas; None without impellers.
     nodes : dict of str to float [1]
         Nodes at which the cross-coupling acts, and the part of each.
     curves : tuple of StabilityCurve
@@ -190,10 +191,10 @@ def stability_level_one(
 ) -> StabilityLevelOne:
     """Return the stability analysis of level I of a compressor, by API 617.
 
-    Cross-coupled stiffness is applied to the rotor, and the log decrement of its first forward whirl followed
-    to zero. The first forward whirl is the slowest one with the rotation that is damped so little that it has
-    a resonance (log decrement below 2 pi). Films have K and C of their equilibrium at this speed, tilting
-    pads those at the frequency of the shaft, as the standard wants it.
+    Cross-coupled stiffness is applied to the rotor and increased until the log decrement of its first forward
+    whirl is zero. The first forward whirl is the slowest one with the rotation that is damped so little that
+    it has a resonance (log decrement below 2 pi). Films have K and C of their equilibrium at this speed. For
+    tilting pads these are synchronous coefficients, as the standard requires.
 
     Parameters
     ----------
@@ -203,13 +204,14 @@ def stability_level_one(
     speed : float [rad/s]
         Maximum continuous speed, of either sign.
     stages : sequence of Impeller or AxialStage
-        At least one; a class of one's own with `cross_coupling(speed)` will do, with an `average_density`.
+        At least one stage. An object of your own class with a method `cross_coupling(speed)` is accepted too;
+        it needs an `average_density`.
     nodes : mapping of int to float, optional
-        Where the cross-coupling acts, as parts that are scaled to a sum of 1. By default the node next to the
-        middle between the outermost bearings, as for rotors between bearings; overhung rotors want the nodes
-        of their stages, with their anticipated cross-couplings as parts.
+        Nodes where the cross-coupling acts, as parts that are scaled to a sum of 1. By default the node next
+        to the middle between the outermost bearings, as for rotors between bearings; for an overhung rotor
+        give the nodes of its stages, with their anticipated cross-couplings as parts.
     stage_speed : float or None [rad/s]
-        At which the stages have their power; `speed` unless given.
+        Stage speed at which the stages have their power; `speed` unless given.
     average_density : float or None [kg/m3]
         Mean of suction and discharge of the machine; by default of the lowest suction and highest discharge
         of the impellers, and none where all stages are axial.
@@ -357,13 +359,13 @@ class StabilityLevelTwo(Readable):
     Attributes
     ----------
     verdict : str
-        In plain words.
+        Verdict in plain words.
     acceptable : bool
         Whether the final log decrement is above 0.1, and nothing else grows.
     log_decrement : float [1]
-        delta_f, of the first forward whirl with all that disturbs and damps the rotor.
+        delta_f, of the first forward whirl with all destabilizing and damping effects on the rotor.
     frequency : float [rad/s]
-        Of that whirl.
+        Frequency of that whirl.
     speed : float [rad/s]
     """
 
@@ -381,15 +383,15 @@ LEAST_FINAL = 0.1
 @one_blas_thread
 @arguments
 def stability_level_two(rotor: ShaftRotor, bearings: Bearings, speed: float) -> StabilityLevelTwo:
-    """Return whether the final log decrement of the first forward whirl is what API 617 wants, above 0.1.
+    """Return the stability analysis of level II by API 617: the final log decrement must exceed 0.1.
 
-    A rotor of which anything else grows, as a backward whirl or another mode, is not acceptable either.
+    A rotor is not acceptable either if another motion grows, such as a backward whirl.
 
     Parameters
     ----------
     rotor : ShaftRotor
     bearings : mapping of str to Reaction
-        By station: bearings, and all that level I lumps together, as seals and impellers
+        Bearings by station: bearings, and all that level I lumps together, as seals and impellers
         (`TabulatedBearing`, `LinearBearing`) in stations of their own.
     speed : float [rad/s]
 
@@ -432,7 +434,7 @@ MOLECULAR_WEIGHT = 10.0
 
 @runtime_checkable
 class DisturbingStage(Protocol):
-    """What disturbs a rotor: an impeller, a stage of blades, or one of one's own."""
+    """A source of destabilizing cross-coupling: an impeller, an axial stage, or a user's own class."""
 
     def cross_coupling(self, speed: float) -> float:
         """Return the anticipated cross-coupled stiffness [N/m] at an angular speed [rad/s]."""
@@ -448,13 +450,13 @@ class Impeller:
     Parameters
     ----------
     power : float [W]
-        Of this impeller, at the operating condition.
+        Power of this impeller, at the operating condition.
     diameter : float [m]
         Outer diameter of the impeller, Dc.
     width : float [m]
         The smaller of the widths of impeller and diffuser at the discharge, Hc.
     suction_density, discharge_density : float [kg/m3]
-        Of the gas before and behind the impeller.
+        Suction density and discharge density of the gas before and behind the impeller.
     alford_factor : float [1]
         Bc: 3 in API 617, molecular weight / 10 in the formula of Wachel (`Impeller.wachel`).
 
@@ -505,7 +507,7 @@ class Impeller:
         ----------
         power, diameter, width, suction_density, discharge_density : float [W, m, m, kg/m3, kg/m3]
         molecular_weight : float [1]
-            Of the gas; 30 is the factor of API 617.
+            Molecular weight of the gas; 30 is the factor of API 617.
         """
         require_positive("molecular_weight", molecular_weight)
         return cls(
@@ -533,7 +535,7 @@ class AxialStage:
     Parameters
     ----------
     power : float [W]
-        Of this stage.
+        Power of this stage.
     diameter : float [m]
         Pitch diameter of the blades, Dt.
     height : float [m]
@@ -611,7 +613,7 @@ class CrossCoupledRotor:
     Parameters
     ----------
     rotor : ShaftRotor
-        With a station for each node where it acts.
+        Rotor with a station for each node where it acts.
     at : RotorEquilibrium
         Without it.
     shares : dict of str to float [1]

@@ -58,7 +58,7 @@ class OrbitBranch(Readable):
     unbalance : ndarray [kg m]
         Those of the unbalances asked for at which the branch exists; empty where it does at none of them.
     eccentricity_ratio, phase, transmissibility, growth_rate : ndarray [1], [rad], [1], [1/s]
-        As in `CircularOrbit`.
+        Eccentricity ratio, phase, transmissibility and growth rate as in `CircularOrbit`.
     """
 
     unbalance: Array
@@ -100,7 +100,8 @@ class SynchronousOrbits(Drawable):
     Attributes
     ----------
     branches : tuple of OrbitBranch
-        From the smallest orbits to the largest; one may be empty, as all are where the rotor hits the wall.
+        Branches from the smallest orbits to the largest; one may be empty, as all are where the rotor hits
+        the wall.
     folds : tuple of Fold
         Between the branches.
     contact_unbalance : float or None [kg m]
@@ -159,7 +160,7 @@ def synchronous_orbits(
     Parameters
     ----------
     rotor : RigidRotor
-        At constant speed, without static load (preloaded springs carry the weight).
+        Rotor at constant speed, without static load (preloaded springs carry the weight).
     reaction : Reaction
         Isotropic: a `PorousDamper`, usually `with_springs`.
     unbalances : array_like, shape (n,) [kg m], optional
@@ -202,13 +203,13 @@ def synchronous_orbits(
 
 @dataclass(frozen=True, kw_only=True)
 class OrbitsOverSpeed(Drawable):
-    """The circular orbits of a rotor with one unbalance over speed: the curve of its damper.
+    """The circular orbits of a rotor with one unbalance over speed: the response curve of its damper.
 
     Attributes
     ----------
     unbalance : float [kg m]
     orbits : tuple of CircularOrbit
-        By speed, at each from the smallest; none where the rotor hits the wall.
+        Orbits by speed, at each from the smallest; none where the rotor hits the wall.
     """
 
     unbalance: float
@@ -338,7 +339,7 @@ class OrbitSlope(NamedTuple):
     pull : ndarray of complex, shape (n,) [N]
         u w^2 exp(i b).
     added : tuple of two ndarrays or None
-        Of a film with inertia, as `orbit_mass` returns it.
+        Added of a film with inertia, as `orbit_mass` returns it.
     """
 
     slope: Array
@@ -468,7 +469,7 @@ def orbit_near(system: OrbitRotor, radius: float, unbalance: float | None) -> fl
     radius : float [1]
         Where it is looked for, within a fifth.
     unbalance : float or None [kg m]
-        Of the orbit; None for the fold, where the unbalance is largest or smallest.
+        Unbalance of the orbit; None for the fold, where the unbalance is largest or smallest.
     """
     near = (0.8 * radius, min(1.2 * radius, 0.5 * (1.0 + radius)))
 
@@ -540,9 +541,10 @@ def transmitted_ratio(trajectory: Trajectory, rotor: RigidRotor) -> Array:
     Parameters
     ----------
     trajectory : Trajectory
-        From `simulate`, its reaction holding everything between rotor and housing (film and springs).
+        Trajectory from `simulate`, its reaction holding everything between rotor and housing (film and
+        springs).
     rotor : RigidRotor
-        With unbalance, at a speed other than zero.
+        Rotor with unbalance, at a speed other than zero.
 
     Raises
     ------
@@ -586,12 +588,12 @@ class BistableMap(Drawable):
 @one_blas_thread
 @arguments
 def bistable_map(damper: Reaction, squeeze_numbers: ArrayLike, spring_ratios: ArrayLike) -> BistableMap:
-    """Return where the response to an unbalance folds.
+    """Return the squeeze numbers and spring ratios at which the unbalance response is bistable.
 
     Parameters
     ----------
     damper : PorousDamper
-        Its cage and extent count, its size does not; without feed.
+        Damper without feed. Its cage and its film extent matter, its size does not.
     squeeze_numbers : array_like, shape (n,) [1]
         Bs/Omega, positive.
     spring_ratios : array_like, shape (m,) [1]
@@ -712,9 +714,9 @@ class OrbitCoefficients(Readable):
 def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: float) -> OrbitCoefficients:
     """Return the equivalent coefficients of a film on a synchronous circular orbit.
 
-    With inertia the stiffness is that without the added mass, minus its mass times speed^2. They are what a
-    linear code may take for a cavitated film, which has no damping matrix at rest: exact for this orbit, no
-    derivative, and different at every radius.
+    With fluid inertia the stiffness includes the term -mass speed^2. A linear code may use these coefficients
+    for a cavitated film, which has no damping matrix at rest. They are exact for this orbit only, are no
+    derivatives, and differ at every radius.
 
     Parameters
     ----------
@@ -723,7 +725,7 @@ def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: flo
     eccentricity_ratio : float [1]
         Radius of the orbit / clearance, above 0 and below 1.
     speed : float [rad/s]
-        Of the orbit, not zero.
+        Speed of the orbit, not zero.
 
     Raises
     ------
@@ -805,7 +807,7 @@ def orbit_system(
     reaction : Reaction
         Film and springs.
     orbit : CircularOrbit
-        As `synchronous_orbits(...).at(...)` returns them, stable or not.
+        Orbit as `synchronous_orbits(...).at(...)` returns them, stable or not.
     name : str, optional
 
     Returns

@@ -49,11 +49,12 @@ def closed_loop(
     Parameters
     ----------
     rotor : Dynamic
-        Takes force_x, force_y and gives x, y, vx, vy of the journal; the connection is by these names.
+        Rotor with inputs force_x, force_y and outputs x, y, vx, vy of the journal. Signals are connected by
+        these names.
     reaction : Reaction
         The film; its states are states of the loop.
     at : Equilibrium
-        Where the film is linearized; the rotor is taken at its initial state at t = 0.
+        Equilibrium where the film is linearized; the rotor is taken at its initial state at t = 0.
     name : str, optional
         Name of the system.
 
@@ -62,8 +63,8 @@ def closed_loop(
     control.StateSpace
         Inputs force_x, force_y: small external force on the journal [N]. Outputs x, y, vx, vy: small motion
         about the equilibrium [m, m/s], and housing_force_x, housing_force_y: change of the force on the
-        housing [N], the opposite of the film force on the journal. The speed is constant. The mass that a
-        film adds is that of the rotor's, and its force is part of that on the housing.
+        housing [N], the opposite of the film force on the journal. The speed is constant. The added mass of a
+        film is added to the mass of the rotor, and its inertia force is part of the force on the housing.
 
     Raises
     ------
@@ -126,12 +127,12 @@ CENTERED = "small_motion_transmissibility is that of a rotor which springs cente
 def transmissibility(
     rotor: Dynamic, reaction: Reaction, load: ArrayLike, speeds: ArrayLike
 ) -> control.FrequencyResponseData:
-    """Return the force on the housing per force on the journal that turns with the shaft.
+    """Return the force on the housing per rotating (synchronous) force on the journal.
 
     Parameters
     ----------
     rotor : Dynamic
-        As in `closed_loop`.
+        Rotor as in `closed_loop`.
     reaction : Reaction
         The film.
     load : array_like, shape (2,) [N]
@@ -205,9 +206,9 @@ def rotor_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = 
     Parameters
     ----------
     rotor : FlexibleRotor
-        The one that rests at `at`.
+        The rotor of the equilibrium `at`.
     at : RotorEquilibrium
-        As `rotor_equilibrium` returns it.
+        Equilibrium as `rotor_equilibrium` returns it.
     name : str, optional
         Name of the system.
 
@@ -215,11 +216,12 @@ def rotor_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = 
     -------
     control.StateSpace
         Inputs: small external forces at the stations, `left_force_x` and so on [N], on the journal and
-        opposite on its housing. Outputs: those of the rotor but its speed, as small motion, and for each
+        opposite on its housing. Outputs: those of the rotor except its speed, as small motion, and for each
         bearing `left_housing_force_x`, `left_housing_force_y`: change of the force on its housing [N]. With
-        the counters `work` of `unbalance_response`. States of bearings whose stiffness is K(s) follow those
-        of the rotor, as `left_memory_0`: tilting pads and lubricated balls exactly, a film that conserves
-        its oil with an error up to 1e-3 at frequencies up to that of the shaft, as `film_system`.
+        the counters `work` of `unbalance_response`. States of bearings with a frequency-dependent stiffness
+        K(s) follow those of the rotor, for example `left_memory_0`. They are exact for tilting pads and
+        lubricated balls. For a mass-conserving film they have an error up to 1e-3 at frequencies up to that
+        of the shaft; see `film_system`.
 
     Raises
     ------
@@ -238,12 +240,12 @@ BASE = ("base_acceleration_x", "base_acceleration_y")
 @one_blas_thread
 @arguments
 def base_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = None) -> control.StateSpace:
-    """Return a rotor on its films, linearized about an equilibrium, on ground that shakes.
+    """Return a rotor on its films, linearized about an equilibrium, with base excitation as input.
 
     Parameters
     ----------
     rotor : FlexibleRotor
-        The one that rests at `at`, without a loss factor.
+        The rotor of the equilibrium `at`, without a loss factor.
     at : RotorEquilibrium
     name : str, optional
         Name of the system.
@@ -252,7 +254,7 @@ def base_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = N
     -------
     control.StateSpace
         Inputs: `base_acceleration_x`, `base_acceleration_y` of the ground, and of all housings with it
-        [m/s2]. Outputs and states: as of `rotor_system`, displacements from the ground. With its counters
+        [m/s2]. Outputs and states: as in `rotor_system`, displacements from the ground. With its counters
         `work`, and its errors.
     """
     return _state_space(rotor, at, -rotor.structure.mass @ translations(rotor), BASE, name)
@@ -263,23 +265,23 @@ def base_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = N
 def base_response(
     rotor: FlexibleRotor, at: RotorEquilibrium, frequencies: ArrayLike
 ) -> control.FrequencyResponseData:
-    """Return the response of a rotor on its films to ground that shakes, over the frequency of the ground.
+    """Return the response of a rotor on its films to base excitation, over the frequency of the base.
 
     |H|^2 times the spectral density of the ground is that of the response.
 
     Parameters
     ----------
     rotor : FlexibleRotor
-        The one that rests at `at`; it may have a loss factor.
+        The rotor of the equilibrium `at`; it may have a loss factor.
     at : RotorEquilibrium
         Its speed is that of the shaft.
     frequencies : array_like, shape (n,) [rad/s]
-        Of the ground, positive and rising.
+        Frequencies of the ground, positive and rising.
 
     Returns
     -------
     control.FrequencyResponseData
-        Inputs and outputs as of `base_system`: phasors at exp(i frequency t) per m/s2. With the
+        Inputs and outputs as in `base_system`: phasors at exp(i frequency t) per m/s2. With the
         counters `work` of `unbalance_response`.
     """
     grid, s = checked_speeds(frequencies, "frequencies"), rotor.structure
@@ -303,16 +305,16 @@ def unbalance_response(
     Parameters
     ----------
     rotor : FlexibleRotor
-        With an unbalance.
+        Rotor with an unbalance.
     bearings : mapping of str to Reaction
-        By the name of the station; each is linearized at the equilibrium of every speed.
+        Bearings by the name of the station; each is linearized at the equilibrium of every speed.
     speeds : array_like, shape (n,) [rad/s]
         Angular speeds, positive and rising.
 
     Returns
     -------
     control.FrequencyResponseData
-        Input `unbalance` [1]: the unbalance of the rotor, 1 as it is. Outputs as of `rotor_system`: phasors
+        Input `unbalance` [1]: the unbalance of the rotor, 1 as it is. Outputs as in `rotor_system`: phasors
         at exp(i w t) [m, m/s, N]; x leads y by 90 degrees in forward whirl. Its attribute `work` counts
         equilibria searched, solutions in the shapes kept, and factorizations of all coordinates.
 
@@ -326,8 +328,8 @@ def unbalance_response(
     Warns
     -----
     ValidityWarning
-        If a motion grows at the highest of the speeds: beyond the threshold no rotor stays in the response.
-        If the search for such a motion does not converge.
+        If a motion grows at the highest of the speeds: beyond the stability threshold the response does not
+        exist in practice. If the search for such a motion does not converge.
     """
     found = driven_by_unbalance(rotor, bearings, speeds)
     try:
@@ -383,13 +385,13 @@ def synchronous_response(
 def rotor_transmissibility(
     rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike
 ) -> control.FrequencyResponseData:
-    """Return the forces on all housings per force on each journal that turns with the shaft.
+    """Return the forces on all housings per rotating (synchronous) force on each journal.
 
     Parameters
     ----------
     rotor : FlexibleRotor
     bearings : mapping of str to Reaction
-        By the name of the station; each is linearized at the equilibrium of every speed.
+        Bearings by the name of the station; each is linearized at the equilibrium of every speed.
     speeds : array_like, shape (n,) [rad/s]
         Angular speeds, positive and rising; the response is taken at the frequency of each.
 
@@ -455,7 +457,7 @@ def driven_response(
     ----------
     rotor : FlexibleRotor
     bearings : mapping of str to Reaction
-        As in `rotor_modes`.
+        Bearings as in `rotor_modes`.
     loads : ndarray, shape (N, m) [N]
     highest_frequency : float [rad/s]
         Highest speed of interest; a rotor of many elements moves in the shapes that it needs.

@@ -52,22 +52,24 @@ def coefficients(
 ) -> Coefficients:
     """Return K = -dF/d(position) and C = -dF/d(velocity) of a film, for a journal at rest.
 
-    Of a film with inertia also the added mass, as `InertialCoefficients`; with states too, K contains it.
+    A film with inertia also has an added mass (`InertialCoefficients`). If it has states too, K contains the
+    added mass.
 
     Parameters
     ----------
     reaction : Reaction
-        The film; F is its force on the journal. A film whose temperature is left to its heat balance is
-        frozen at that of the position: in vibration bush, shaft and film keep it.
+        The film; F is its force on the journal. If the heat balance determines the film temperature, it is
+        computed at this position and held: during vibration, bush, shaft and film keep their temperature.
     position : array_like, shape (2,) [m]
         Journal center from the bearing center, an equilibrium or not.
     speed : float [rad/s]
         Angular speed about +z.
     frequency : float or None [rad/s]
-        Of the whirl, where K and C depend on it, as on tilting pads: their result, `ReducedCoefficients`,
-        names it. None for that of the shaft, 0 for slow motion. With None they are
-        `FrequencyDependentCoefficients`, from which modes and critical masses take K(s). States that drift,
-        as the wear of a bush and the temperature of a film, are held with None, and follow with a frequency.
+        Frequency of the whirl, where K and C depend on it, as for tilting pads. None takes the frequency of
+        the shaft (synchronous coefficients), 0 takes slow motion. With a number the result is a
+        `ReducedCoefficients`. With None it is a `FrequencyDependentCoefficients`, from which modes and
+        critical masses take K(s). States that drift, such as the wear of a bush or the temperature of a film,
+        are held with None; with a number they follow the motion.
 
     Raises
     ------
@@ -132,7 +134,7 @@ def _held(film: Any, position: Array, speed: float) -> Coefficients:
 
 @arguments
 def frozen_coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coefficients:
-    """Return K and C of a reaction whose states are held where they rest: its answer to very fast motion.
+    """Return K and C of a reaction with its states held at their equilibrium: the limit of very fast motion.
 
     Parameters
     ----------
@@ -151,7 +153,7 @@ def frozen_coefficients(reaction: Reaction, position: ArrayLike, speed: float) -
 
 @arguments
 def quasi_static_coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coefficients:
-    """Return K(0) and dK/ds(0) of a reaction whose states follow the shaft: its answer to slow motion.
+    """Return K(0) and dK/ds(0) of a reaction whose states follow the shaft: the limit of slow motion.
 
     Parameters
     ----------
@@ -168,14 +170,15 @@ def quasi_static_coefficients(reaction: Reaction, position: ArrayLike, speed: fl
 
 @arguments
 def dynamic_stiffness(reaction: Reaction, at: Equilibrium, s: complex) -> Complex:
-    """Return K(s) + s C(s) + s^2 M of a reaction about a rest, its states eliminated.
+    """Return K(s) + s C(s) + s^2 M of a reaction about an equilibrium, with its states eliminated.
 
     Parameters
     ----------
     reaction : Reaction
-        Its states follow the shaft, the temperature of a film and the wear of a bush among them.
+        The bearing. Its states follow the shaft; this includes the temperature of a film and the wear of a
+        bush.
     at : Equilibrium
-        Where the shaft rests.
+        Equilibrium where the shaft rests.
     s : complex [1/s]
         Exponent of the motion, growth rate + i frequency.
 
@@ -210,7 +213,8 @@ def dynamic_stiffness(reaction: Reaction, at: Equilibrium, s: complex) -> Comple
 def coefficient_table(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) -> Any:
     """Return K and C of a film at its equilibria under a load, over speed, as a `TabulatedBearing`.
 
-    Its table has eccentricity, attitude, least film, temperature, power loss and flow of the equilibria too.
+    The result also has the eccentricity, attitude angle, minimum film, temperature, power loss and flow of
+    each equilibrium.
 
     Parameters
     ----------
@@ -251,24 +255,24 @@ SAMPLES = 64
 
 @dataclass(frozen=True, kw_only=True)
 class VariableCompliance(Drawable):
-    """A shaft in slow motion under a steady load while its cage turns by a pitch.
+    """Variable compliance: a shaft under a steady load while the ball cage turns by one pitch.
 
     Attributes
     ----------
     cage_angle : ndarray, shape (samples,) [rad]
-        By which the cage has turned, from 0 to a pitch, the last one left out.
+        Angle by which the cage has turned, from 0 to one ball pitch, end point excluded.
     position : ndarray, shape (2, samples) [m]
-        Where the shaft rests.
+        Position where the shaft rests.
     swing : ndarray, shape (2,) [m]
         Peak to peak along x and y.
     swing_amplitude : ndarray, shape (2, harmonics) [m]
-        Of the harmonics of the ball-pass frequency along x and y, the first one first.
+        Swing amplitude of the harmonics of the ball-pass frequency along x and y, the first one first.
     mean_stiffness : ndarray, shape (2, 2) [N/m]
         Averaged over the pitch.
     first_harmonic : ndarray, shape (2, 2, 2) [N/m]
         A, B of K = mean + A cos(2 pi angle/pitch) + B sin(2 pi angle/pitch): the parametric excitation.
     ball_pass_frequency : float [rad/s]
-        At the speed of the shaft: balls times the speed of the cage.
+        Ball pass frequency at the speed of the shaft: balls times the speed of the cage.
     load : ndarray, shape (2,) [N]
     speed : float [rad/s]
     """
@@ -289,9 +293,9 @@ class VariableCompliance(Drawable):
 def variable_compliance(
     bearing: Reaction, load: tuple[float, float], speed: float = 0.0, *, samples: int = SAMPLES
 ) -> VariableCompliance:
-    """Return where a shaft rests at each angle of the cage over a ball pitch, and its stiffness there.
+    """Return the equilibrium and the stiffness of a shaft at each cage angle over one ball pitch.
 
-    Quasi-static: the inertia of the shaft does not count, which holds far below its resonances.
+    The motion is quasi-static: the inertia of the shaft is neglected, which holds far below its resonances.
 
     Parameters
     ----------

@@ -73,14 +73,15 @@ def simulate_rotor(
     exact derivatives (`native/loops/march.h`), all of it compiled. A step costs some ten microseconds.
 
     A `SpeedProfile` may change the gyroscopic effect and the rotating damping too. A shaft of many elements
-    (more than 60 coordinates) moves in few shapes: in ever more, until the journals of two runs agree, the
-    second with shapes to four times the frequency of the first. If they never do it is run whole.
+    (more than 60 coordinates) is reduced to its lowest mode shapes. The run is repeated with shapes up to
+    four times the frequency, until the journals of two runs agree. If they never agree, the whole shaft is
+    integrated.
 
     Parameters
     ----------
     mounted : MountedRotor
-        From `mount`, with a bearing without states in at least one station and no forces left free that
-        anybody would drive. Its speed may be a profile.
+        Mounted rotor from `mount`, with a bearing without states in at least one station, and without free
+        force inputs. Its speed may be a profile.
     duration : float [s]
     samples : int
         Number of samples at equal distance, from 0 to `duration` inclusive.
@@ -93,13 +94,14 @@ def simulate_rotor(
         (clearance speed).
     max_step : float [s]
     condensation : float [1]
-        Largest difference of the two runs of a large shaft, in clearances; 0 runs all of it.
+        Largest difference of the two runs of a large shaft, in clearances; 0 integrates the whole shaft.
 
     Returns
     -------
     Trajectory
-        Signals: every output of `mounted`, its bearings' forces included. Work: film_evaluations, jacobians,
-        steps, rejected, and of these restarts: steps cut short at the wall.
+        Signals: every output of `mounted`, including the bearing forces. Counters in `work`:
+        film_evaluations, jacobians, steps, rejected, and restarts (rejected steps that were cut short at the
+        wall).
 
     Raises
     ------
@@ -227,7 +229,7 @@ class Collocation(NamedTuple):
     Attributes
     ----------
     nodes : ndarray, shape (s,)
-        Of Radau's right rule.
+        Nodes of Radau's right rule.
     lagrange : ndarray, shape (s, s)
     remainder : ndarray, shape (s + 1,)
         The polynomial that vanishes at the nodes and is 1 at the start.
@@ -259,7 +261,7 @@ class ModalArrays(NamedTuple):
     Attributes
     ----------
     values, push, sense : ndarray of complex
-        As of a `ModalRotor`.
+        Values, push and sense as for a `ModalRotor`.
     """
 
     values: Complex
@@ -389,9 +391,9 @@ class March:
     longest : float [s]
         Longest step.
     duration : float [s]
-        Of the whole run, which says what step is too short.
+        Duration of the whole run, which says what step is too short.
     speed : float [rad/s], optional
-        Of the modes, where the matrices depend on the speed and that is not always this one.
+        Speed of the modes, where the matrices depend on the speed and that is not always this one.
     stages : int
         Collocation nodes.
     """
@@ -556,7 +558,7 @@ class RunUp:
     ----------
     parts : Parts
     state : ndarray, shape (2 N,)
-        At t = 0.
+        State at t = 0.
     duration : float [s]
     march : callable
         `March` with its error and step, of `modal`, `state` and `speed`.

@@ -325,7 +325,7 @@ def spin_rates(modal: ModalRotor) -> tuple[Array, Array]:
     Returns
     -------
     matrix : ndarray, shape (2 n_modes, 2 n_modes)
-        Per real and imaginary part, of real and imaginary part.
+        Matrix per real and imaginary part, of real and imaginary part.
     rest : ndarray, shape (2 n_modes,)
         At the rest.
     """
@@ -489,7 +489,7 @@ def compiled_form(rotor: Dynamic, reaction: Any) -> MountedRotor | None:
     Parameters
     ----------
     rotor : Dynamic
-        With one station left, the one without a name.
+        Rotor with one station left, the one without a name.
     reaction : Reaction
         The bearing of that.
     """

@@ -63,7 +63,7 @@ VANISHED = 1e-4
 
 
 class Bifurcation(Enum):
-    """What happens to a periodic orbit."""
+    """The kind of a bifurcation of a periodic orbit."""
 
     FOLD = "fold"
     PERIOD_DOUBLING = "period doubling"
@@ -80,7 +80,7 @@ class OrbitEvent(Readable):
     kind : Bifurcation
         What happens there.
     parameter : float
-        Of the family of rotors, in the unit that the caller gives it.
+        Parameter of the family of rotors, in the unit that the caller gives it.
     orbit : PeriodicOrbit
         The orbit there.
     """
@@ -99,7 +99,7 @@ class OrbitCurve(Drawable):
     parameters : ndarray, shape (n,)
     orbits : tuple of PeriodicOrbit, shape (n,)
     events : tuple of OrbitEvent
-        In the order in which they are met.
+        Events in the order in which they are met.
     reason : str
         Why the curve ends.
     """
@@ -140,21 +140,22 @@ def continue_orbits(
     Parameters
     ----------
     family : callable
-        From the parameter to the rotor in its bearings: over the speed, the unbalance, a clearance, anything.
+        Function that returns the rotor in its bearings for a value of the parameter, such as the speed, the
+        unbalance or a clearance.
     start : PeriodicOrbit or HopfPoint
         An orbit of `family(parameter)`, or the onset of whirl that the curve begins at.
     bounds : (float, float)
         Range of the parameter; the curve ends where it leaves it.
     parameter : float, optional
-        Where the orbit is; a HopfPoint has its own.
+        Value of the parameter at `start`; not needed for a HopfPoint, which has its own.
     direction : int
-        1 to begin with rising parameter, -1 with falling; of no matter at a HopfPoint.
+        1 to begin with a rising parameter, -1 with a falling one; not used at a HopfPoint.
     largest_step : float [1]
         Longest step, in clearances of the series and ranges of the parameter.
     most : int
         Number of orbits at most.
     tolerance : float [1]
-        Of the harmonics, as in `periodic_orbit`.
+        Tolerance of the harmonics, as in `periodic_orbit`.
 
     Raises
     ------
@@ -348,7 +349,7 @@ class Curve(NamedTuple):
     Attributes
     ----------
     family : callable
-        From the parameter to the rotor in its bearings.
+        Function that returns the rotor in its bearings for a value of the parameter.
     scale : float
         Range of the parameter, which makes it comparable with clearances.
     """
@@ -493,7 +494,7 @@ REACH = 0.03
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class HopfPoint(Readable):
-    """Where a rotor at rest begins to whirl as a parameter changes.
+    """A Hopf bifurcation: the parameter at which a rotor at rest begins to whirl.
 
     With a the amplitude of the whirl in clearances (root of the sum of squares of the first harmonics of all
     journals) its growth is crossing (parameter - onset) + growth_curvature a^2, to leading order.
@@ -503,10 +504,10 @@ class HopfPoint(Readable):
     parameter : float
         The onset.
     frequency : float [rad/s]
-        Of the whirl.
+        Frequency of the whirl.
     speed : float [rad/s]
     position : ndarray, shape (2 n_bearings,) [m]
-        Of the journals at rest.
+        Position of the journals at rest.
     shape : ndarray of complex, shape (2 n_bearings,) [m]
         First harmonic of the journals in a whirl of amplitude 1.
     crossing : float
@@ -530,24 +531,28 @@ class HopfPoint(Readable):
 
     @property
     def supercritical(self) -> bool:
-        """Whether small stable whirl begins here; else large whirl coexists with the rest below the onset."""
+        """Whether the bifurcation is supercritical: small stable whirl begins here.
+
+        Otherwise a large whirl coexists with the equilibrium below the onset.
+        """
         return self.growth_curvature < 0.0
 
     @property
     def parameter_curvature(self) -> float:
-        """(parameter - onset) / a^2 of the small orbits."""
+        """(parameter - onset) / a^2 of small orbits with the amplitude a."""
         return -self.growth_curvature / self.crossing
 
 
 @one_blas_thread
 @arguments
 def hopf_point(family: Callable[[float], MountedRotor], bounds: tuple[float, float]) -> HopfPoint:
-    """Return where a rotor at rest loses stability to whirl, and the criticality of that.
+    """Return the Hopf point at which a rotor at rest begins to whirl, and whether it is supercritical.
 
     Parameters
     ----------
     family : callable
-        From the parameter to the rotor in its bearings. Its unbalance does not matter.
+        Function that returns the rotor in its bearings for a value of the parameter. Its unbalance does not
+        matter.
     bounds : (float, float)
         Two values of the parameter, stable at one and unstable at the other.
 

@@ -29,10 +29,10 @@ class CrackedResponse(Readable):
     ----------
     speed : float [rad/s]
     series : dict of str to ndarray of complex, shape (harmonics + 1,)
-        Of each output: real part of sum series[k] exp(i k angle), the angle turned since t = 0. Of an
-        unstable rotor it is the motion that a disturbance leaves.
+        Fourier series of each output: the real part of sum series[k] exp(i k angle), with the angle turned
+        since t = 0. For an unstable rotor it is the periodic motion that a disturbance leaves.
     multipliers : ndarray of complex, shape (n_states,)
-        What a disturbance has become after one turn (Floquet), the largest first.
+        Floquet multipliers, the growth of a disturbance over one turn, the largest first.
     """
 
     speed: float
@@ -55,9 +55,9 @@ class CrackedResponse(Readable):
 def cracked_response(mounted: MountedRotor, *, harmonics: int = 5, steps: int = STEPS) -> CrackedResponse:
     """Return the periodic response of a cracked rotor on linear bearings to weight and unbalance.
 
-    The equations are linear with a period of one turn. Each step is two matrix exponentials, of fourth order
-    without commutators (Blanes & Moan 2006, Appl. Numer. Math. 56, 1519-1537), exact in the modes of a shaft
-    without a crack however fast they are.
+    The equations are linear with a period of one turn. Each step uses two matrix exponentials, a
+    commutator-free method of fourth order (Blanes & Moan 2006, Appl. Numer. Math. 56, 1519-1537). It is exact
+    for the modes of a shaft without a crack, however fast they are.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def cracked_response(mounted: MountedRotor, *, harmonics: int = 5, steps: int = 
     harmonics : int
         Below half of the steps.
     steps : int
-        Per turn.
+        Steps per turn.
 
     Raises
     ------

@@ -305,7 +305,7 @@ class Crossing(NamedTuple):
     Attributes
     ----------
     speed : float [rad/s]
-        Of a candidate |speed|, where it is expected to.
+        Speed of a candidate |speed|, where it is expected to.
     value : complex [1/s]
     right, left : ndarray, shape (n,)
         L right = 0, left* L = 0, of a candidate in the middle of the step.
@@ -325,7 +325,7 @@ class SpannedModes:
     ----------
     model : Condensed
     rests : tuple of three RotorEquilibrium
-        At the ends and in the middle, by rising |speed|.
+        Rests at the ends and in the middle, by rising |speed|.
     """
 
     model: Condensed
@@ -442,7 +442,7 @@ class Leap(SpannedModes):
     ----------
     model : Condensed
     rests : tuple of three RotorEquilibrium
-        As of `SpannedModes`: the jump is between the ends.
+        Rests as of `SpannedModes`: the jump is between the ends.
     part : (float, float) [1]
         Shares of the way at which the part begins and ends.
     """
@@ -503,7 +503,7 @@ def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 
     Returns
     -------
     ArrayWithOperations, shape (count, n) [rad/s]
-        nan where the rotor has fewer. Its `work` counts eigenproblems and factorizations.
+        nan where the rotor has fewer critical speeds. Its `work` counts eigenproblems and factorizations.
 
     Raises
     ------
@@ -685,7 +685,7 @@ def branches_on_line(T: Changing, heights: Array, reach: float = np.inf) -> Bran
     ----------
     T : Changing
     heights : ndarray, shape (2,)
-        Of the line at d = -h and h.
+        Heights of the line at d = -h and h.
     reach : float
         Real part to which the line goes to both sides.
     """

@@ -140,10 +140,10 @@ class RestTangent(NamedTuple):
     Attributes
     ----------
     force : ndarray, shape (2, ...) [N]
-        On the journal at rest; along a motion with that of an added mass.
+        Force on the journal at rest; along a motion with that of an added mass.
     stiffness, damping : ndarray, shape (2, 2, ...) [N/m], [N s/m]
     mass : ndarray, shape (2, 2, ...) [kg]
-        That the film adds.
+        Mass that the film adds.
     """
 
     force: Array
@@ -159,7 +159,7 @@ class StatesAlong(NamedTuple):
     ----------
     position, velocity, acceleration : ndarray, shape (2, n) [m, m/s, m/s2]
     step : float [s]
-        From one to the next.
+        Step from one to the next.
     """
 
     position: Array

@@ -76,7 +76,8 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     Parameters
     ----------
     reaction : Reaction
-        The film; it need not be isotropic. If its temperature is left to its heat, that is found too.
+        The film; it need not be isotropic. If the heat balance determines its temperature, the temperature is
+        found too.
     load : array_like, shape (2,) [N]
         External static force on the journal, weight included; film force + load = 0. For a reaction with
         other freedoms the force or moment in each of them, shape (n,).
@@ -86,13 +87,14 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     Returns
     -------
     Equilibrium
-        With |film force + load| <= 1e-12 |load|, or what roundoff leaves, up to 1e-6 |load|: a light load on
-        preloaded pads or balls is the small difference of large forces. Of tilting pads a `PadEquilibrium`.
-        A `ValidityWarning` tells of a film beyond its map, of a temperature beyond the viscosity law of the
-        oil, and of a mean pressure |load|/(2 radius length) above half of the bulk modulus of a mineral oil.
-        It also tells of a film that is not laminar (Reynolds number speed radius clearance/kinematic
-        viscosity above 2000 or 41.2 sqrt(radius/clearance)). Another tells of an equilibrium that is
-        statically unstable: the stiffness in slow motion has a negative real eigenvalue.
+        The equilibrium, with |film force + load| <= 1e-12 |load|. Where a light load is the small difference
+        of large forces, as on preloaded pads or balls, roundoff leaves up to 1e-6 |load|. For tilting pads it
+        is a `PadEquilibrium`. A `ValidityWarning` is given for a film beyond its map, for a temperature
+        beyond the viscosity law of the oil, and for a mean pressure |load|/(2 radius length) above half of
+        the bulk modulus of a mineral oil. It is also given for a film that is not laminar (Reynolds number
+        speed radius clearance/kinematic viscosity above 2000 or 41.2 sqrt(radius/clearance)). Another warning
+        is given for an equilibrium that is statically unstable: the stiffness in slow motion has a negative
+        real eigenvalue.
 
     Raises
     ------
@@ -102,12 +104,11 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
         If the load is beyond what the film carries at eccentricity ratio 0.9999, or where pads touch, if the
         film carries nothing (no wedge at zero speed), or if the search does not converge.
 
-    Notes
-    -----
-    Newton's method with the exact Jacobian in s = log(chi / (1 - chi)), chi = |position| / clearance, and the
-    angle phi of the position. The residual is (log(|F| / |load|), angle from -load to F). A film force grows
-    as a power of chi near the center and of 1 - chi near the wall: the equations are nearly linear. Balls,
-    among which there may be no force at all, find their rest themselves (`core.port`).
+    Notes ----- Newton's method with the exact Jacobian in s = log(chi / (1 - chi)), chi = |position| /
+    clearance, and the angle phi of the position. The residual is (log(|F| / |load|), angle from -load to F).
+    A film force grows as a power of chi near the center and of 1 - chi near the wall: the equations are
+    nearly linear. Ball bearings, whose force may be zero over a range of positions, find their equilibrium
+    themselves (`core.port`).
     """
     require_reaction("reaction", reaction, heavy=True)
     freedoms = freedoms_of(reaction)
@@ -582,17 +583,17 @@ place of an answer which does not settle may be unsure by."""
 
 @dataclass(frozen=True, kw_only=True)
 class HeatedEquilibrium(Readable):
-    """The place of a journal at which a film that warms balances the load.
+    """The static equilibrium of a journal on a film with a temperature field.
 
     Attributes
     ----------
     rest : Equilibrium
-        Of the film at its frozen temperature.
+        Rest of the film at its frozen temperature.
     state : HeatedState
         Temperature, pressure, power and flow there; `coefficients(state.film, ...)` are those at frozen
         temperature.
     rounds : int
-        Solutions of film and heat in turn.
+        Number of alternating solutions of film and heat.
     """
 
     rest: Equilibrium
@@ -605,14 +606,14 @@ class HeatedEquilibrium(Readable):
 def heated_equilibrium(film: FieldFilm, load: ArrayLike, speed: float) -> HeatedEquilibrium:
     """Return the position at which a film with a temperature field balances a static load.
 
-    The journal starts where the film of fresh oil holds it, or where a look all round finds the force near to
-    the load. Place and temperature are relaxed together, and then solved in turn until both rest.
-    A `ValidityWarning` tells of oil beyond its viscosity law, and of a film that is not laminar.
+    The journal starts at the equilibrium of a film of fresh oil, or at the best position of a search in all
+    directions. Position and temperature are relaxed together, and then solved in turn until both converge. A
+    `ValidityWarning` is given for oil beyond its viscosity law, and for a film that is not laminar.
 
     Parameters
     ----------
     film : FieldFilm
-        Such as `HeatedFilm`.
+        Film such as `HeatedFilm`.
     load : array_like, shape (2,) [N]
         External static force on the journal, weight included.
     speed : float [rad/s]

@@ -63,7 +63,7 @@ def rotor_growing(structure: Structure, at: RotorEquilibrium, values: np.ndarray
     Parameters
     ----------
     structure : Structure
-        Without hysteresis.
+        Structure without hysteresis.
     at : RotorEquilibrium
     values : ndarray [1/s]
         Exponents next to which the phase turns fast.
@@ -178,8 +178,8 @@ def counted_exponents(
     Returns
     -------
     values : ndarray, shape (n,) [1/s]
-        By falling real part, those with imaginary part >= 0: all that grow, or one that is damped, which need
-        not be the least damped, where `growing` is 0.
+        Values by falling real part, those with imaginary part >= 0: all that grow, or one that is damped,
+        which need not be the least damped, where `growing` is 0.
     growing : int
         How many grow, both of a pair, by the phase of the determinant.
 
@@ -294,7 +294,7 @@ def growing_count(ratio: Callable[[float], complex], frequencies: Array, referen
     Parameters
     ----------
     ratio : callable
-        From a frequency nu [rad/s] to D(i nu)/E(i nu), real at 0, and 1 at infinity.
+        Ratio from a frequency nu [rad/s] to D(i nu)/E(i nu), real at 0, and 1 at infinity.
     frequencies : ndarray, shape (n,) [rad/s]
         Rising from 0, close enough that no whole turn falls between two of them; steps in which the phase
         turns far are halved. From the last they are doubled until D/E is near 1, so that the phase stays

@@ -147,7 +147,7 @@ class Residual:
     Attributes
     ----------
     values : ndarray, shape (rows (2 H + 1),) [1]
-        In the units of the rows.
+        Values in the units of the rows.
     by_frequency : ndarray [s/rad]
         Derivatives by the frequency of free whirl; empty where the unbalance drives.
     derive : callable
@@ -367,7 +367,7 @@ def slope_columns(stiffness: Array, damping: Array, harmonics: int) -> Complex:
     Parameters
     ----------
     stiffness, damping : ndarray, shape (2, samples)
-        Over the orbit.
+        Stiffness and damping over the orbit.
 
     Returns
     -------
@@ -762,7 +762,7 @@ class StatefulTurn(NamedTuple):
     places : ndarray, shape (2 + N, n) [m]
         Samples of x, y and the states.
     force : ndarray, shape (2, n) [N]
-        Of the film on the journal.
+        Force of the film on the journal.
     """
 
     places: Array
@@ -778,9 +778,9 @@ class TurnEquations:
     bearing : callable
         See `Bearing`.
     clearance : float [m]
-        By which steps are measured.
+        Clearance by which steps are measured.
     samples : int
-        Over a turn, odd.
+        Samples over a turn, odd.
     """
 
     def __init__(self, rotor: RigidRotor, bearing: Bearing, clearance: float, samples: int) -> None:

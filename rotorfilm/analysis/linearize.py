@@ -65,12 +65,11 @@ def linearize(model: Model, at: OperatingPoint | Equilibrium, name: str | None =
     Parameters
     ----------
     model : Model
-        A static film gives a system without states whose D holds its derivatives, one that remembers the
-        system of `film_system`, with an error up to 1e-3 at frequencies up to that of the shaft.
+        A static film gives a system without states whose D holds its derivatives. A frequency-dependent film
+        gives the system of `film_system`, with an error up to 1e-3 at frequencies up to that of the shaft.
     at : OperatingPoint or Equilibrium
-        An Equilibrium stands for the journal in this equilibrium, as input of a reaction, whose states are in
-        equilibrium too. The wear of a bush is the one that it starts with, and a heated film keeps the
-        temperature of the equilibrium.
+        With an Equilibrium the journal is at this equilibrium, and so are the states of the reaction. A bush
+        keeps its initial wear, and a heated film keeps the temperature of the equilibrium.
     name : str, optional
         Name of the system; python-control numbers it by default.
 
@@ -164,12 +163,13 @@ class FilmSystem(Readable):
     ----------
     system : control.StateSpace
         Inputs x, y, vx, vy, speed, outputs force_x, force_y, as small changes about the equilibrium. The
-        states are no oil contents, but what the film remembers of x and of y, each through a chain of equal
+        states are not oil contents: they are the recent history of x and of y, each through a chain of equal
         lags. The speed acts as in slow motion.
     error : float [1]
-        Largest error of K(i nu), over its largest entry, at frequencies nu up to the highest; K(0) has none.
+        Largest error of K(i nu) relative to its largest entry, at frequencies nu up to the highest; K(0) is
+        exact.
     highest_frequency : float [rad/s]
-        Beyond it nothing is known of the error.
+        Highest frequency of the fit. Beyond it the error is unknown.
     """
 
     system: control.StateSpace
@@ -216,11 +216,11 @@ def film_system(
     Parameters
     ----------
     film : Reaction
-        That tells K(s), as `JFOFilm`.
+        Film with a frequency-dependent stiffness K(s), such as `JFOFilm`.
     at : Equilibrium
-        Where the journal rests.
+        Equilibrium where the journal rests.
     highest_frequency : float, optional [rad/s]
-        Up to which K(i nu) is to be right; by default the speed.
+        Highest frequency at which K(i nu) is fitted; by default the speed.
     tolerance : float [1]
         Largest error there, over the largest entry of K(i nu).
     name : str, optional
@@ -233,11 +233,9 @@ def film_system(
     ConvergenceError
         If 32 states for each direction are not enough.
 
-    Notes
-    -----
-    K(s) is fitted by least squares in Laguerre functions of s, at frequencies up to the highest, with K(0)
-    exact: oil that crosses a cavity is a delay, which they take up at a geometric rate. They decay whatever
-    the fit, and its damping in fast motion is positive.
+    Notes ----- K(s) is fitted by least squares in Laguerre functions of s, at frequencies up to the highest,
+    with K(0) exact: oil that crosses a cavity acts as a delay, and the functions converge to it at a
+    geometric rate. The fitted system is always stable, and its damping in fast motion is positive.
     """
     require_reaction("film", film, heavy=True, planar=True)
     if not states_rest(film):

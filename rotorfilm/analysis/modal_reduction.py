@@ -127,11 +127,11 @@ class ShapeSpace(NamedTuple):
     Attributes
     ----------
     shapes : ndarray, shape (N / 2, n)
-        Of unit mass, and without mass in common: modes of the shaft on no films, then what loads add.
+        Shapes of unit mass, and without mass in common: modes of the shaft on no films, then what loads add.
     cut : float
         All modes below this frequency are among them [rad/s].
     frequencies : ndarray, shape (k,)
-        Of these modes, rising [rad/s].
+        Frequencies of these modes, rising [rad/s].
     solid : BandedCholesky
         K + shift^2 M in one plane.
     """
@@ -442,7 +442,7 @@ class TupleWithOperations(Tabled, tuple[Item, ...]):
     Attributes
     ----------
     work : dict of str to int
-        As `RotorModes.work`.
+        Work as `RotorModes.work`.
     """
 
     work: dict[str, int]
@@ -467,7 +467,7 @@ class ArrayWithOperations(np.ndarray):
     Attributes
     ----------
     work : dict of str to int
-        As `RotorModes.work`; empty in what is made of such an array.
+        Work as `RotorModes.work`; empty in what is made of such an array.
     """
 
     work: dict[str, int]

@@ -100,11 +100,11 @@ class PeriodicOrbit(Drawable):
     state : ndarray, shape (n_states,)
         State of the whole rotor at t = 0.
     multipliers : ndarray of complex, shape (n_states,)
-        Floquet multipliers, the largest first; one of whirl is 1. Empty without `stability`.
+        Floquet multipliers, the largest first; for free whirl one of them is 1. Empty without `stability`.
     residual : float [1]
-        Imbalance left / clearance.
+        Remaining imbalance of the equations / clearance.
     truncation : float [1]
-        Largest of the last quarter of the harmonics / clearance.
+        Largest of the last quarter of the harmonics / clearance: the truncation error.
     work : dict of str to int
         film_evaluations, iterations.
     """
@@ -131,7 +131,7 @@ class PeriodicOrbit(Drawable):
 
     @property
     def harmonics(self) -> int:
-        """Harmonics of the series."""
+        """Number of harmonics of the series."""
         return self.series.shape[-1] // 2
 
     def position(self, time: ArrayLike) -> Array:
@@ -153,7 +153,7 @@ class PeriodicOrbit(Drawable):
 
     @property
     def free_multipliers(self) -> Complex:
-        """The multipliers without the one that is 1 because whirl has no phase of its own."""
+        """The multipliers without the one that is always 1, because the phase of free whirl is arbitrary."""
         if self.periods:
             return self.multipliers
         return np.delete(self.multipliers, int(np.argmin(np.abs(self.multipliers - 1.0))))
@@ -184,8 +184,8 @@ def periodic_orbit(
     Parameters
     ----------
     mounted : MountedRotor
-        From `mount`, at constant speed. Its bearings may react to any motions of the shaft and have states,
-        but no added mass; compiled loops serve those that react to x and y alone.
+        Mounted rotor from `mount`, at constant speed. Its bearings may react to any motions of the shaft and
+        may have states, but no added mass. Bearings that react to x and y alone run in compiled loops.
     start : PeriodicOrbit or Trajectory, optional
         An orbit nearby, or a run of `simulate_rotor` that ends in one; by default small motion about the
         rest, which leads to the orbit of one turn.
@@ -193,10 +193,10 @@ def periodic_orbit(
         Turns of the shaft per orbit: 2 after a period doubling. The orbit of one turn solves these equations
         too, so that another one needs a start.
     tolerance : float [1]
-        Harmonics are added until the last quarter of them is smaller, in clearances; the equations of those
-        that there are hold to a thousandth of it.
+        Harmonics are added until the last quarter of them is smaller than this, in clearances. The equations
+        are solved to a thousandth of it.
     stability : bool
-        Whether to compute the Floquet multipliers; without them the orbit does not know whether it is stable.
+        Whether to compute the Floquet multipliers; without them the stability of the orbit is unknown.
 
     Raises
     ------
@@ -435,7 +435,7 @@ class Rest(NamedTuple):
     Attributes
     ----------
     position : ndarray, shape (2 n_bearings,) [m]
-        Of the journals.
+        Position of the journals.
     matrix : ndarray, shape (2 N, 2 N)
         x' = A x of small motion.
     """
@@ -623,7 +623,7 @@ class DrivenRotor(JournalPairs):
     Attributes
     ----------
     answers : RotorAnswers
-        Of the rotor.
+        Answers of the rotor.
     bearings, sloped : mapping of str to Any
         By station: whose forces, and whose slopes.
     """
@@ -755,7 +755,7 @@ STEADY = 1e-6
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class BasinScan(Readable):
-    """Where a rotor goes from offsets of its journals.
+    """Basins of attraction: the long-term motion of a rotor from offsets of its journals.
 
     Attributes
     ----------
@@ -786,21 +786,22 @@ class BasinScan(Readable):
 def basin_scan(
     mounted: MountedRotor, offsets: ArrayLike, *, turns: int = 400, rtol: float = 1e-6
 ) -> BasinScan:
-    """Return which offsets from the rest decay and which end in whirl.
+    """Return which offsets from the equilibrium decay and which end in whirl.
 
-    The rotor starts without velocity, its journals off their rest by the same displacement, the shaft bent as
-    little as that takes.
+    The rotor starts without velocity. All journals start at the same displacement from their equilibrium,
+    with the shaft bent as little as possible.
 
     Parameters
     ----------
     mounted : MountedRotor
-        From `mount`, at constant speed, without unbalance.
+        Mounted rotor from `mount`, at constant speed, without unbalance.
     offsets : array_like, shape (2, ...) [m]
-        Those that touch the wall count as whirl, with the amplitude nan.
+        Initial displacements from the equilibrium. Those that touch the wall count as whirl, with the
+        amplitude nan.
     turns : int
         Longest run in turns of the shaft; it ends sooner once it is decided.
     rtol : float [1]
-        As in `simulate_rotor`.
+        Rtol as in `simulate_rotor`.
 
     Raises
     ------

@@ -69,17 +69,17 @@ class RotorEquilibrium(Readable):
     ----------
     speed : float [rad/s]
     coefficients : dict of str to Coefficients
-        Stiffness, damping and journal position of each bearing, by station; of one with an added mass that
-        too, as `InertialCoefficients`.
+        Stiffness, damping and journal position of each bearing, by station. A bearing with an added mass has
+        `InertialCoefficients`, with that mass.
     loads : dict of str to ndarray, shape (2,) [N]
-        Static load on each bearing, by station; shape (n,) with the moments [N m] of one with
-        n other freedoms.
+        Static load on each bearing, by station. For a bearing with n other freedoms it has the shape (n,) and
+        includes moments [N m].
     displacement : ndarray, shape (N,)
         Coordinates of the rotor.
     residual : float [1]
         Largest imbalance of forces / weight; [N] without weight.
     temperatures : dict of str to float [K]
-        Of the films whose temperature follows from the balance of their heat, by station.
+        Temperatures of the films whose temperature follows from the balance of their heat, by station.
     work : dict of str to int
         Steps of Newton's method (newton_steps).
     """
@@ -96,17 +96,17 @@ class RotorEquilibrium(Readable):
 @one_blas_thread
 @arguments
 def rotor_equilibrium(rotor: FlexibleRotor, bearings: Bearings, speed: float) -> RotorEquilibrium:
-    """Return where a rotor rests in its bearings under its weight.
+    """Return the static equilibrium of a rotor in its bearings under its weight.
 
-    In two bearings the loads follow from statics; in more of them from the stiffness of the shaft as well.
+    With two bearings the loads follow from statics; with more they also depend on the stiffness of the shaft.
 
     Parameters
     ----------
     rotor : FlexibleRotor
         Its own speed is not used.
     bearings : mapping of str to Reaction
-        By the name of the station; a station without one is free. Without weight they need not hold the
-        rotor. One with other freedoms than x, y goes into a station that has them too.
+        Bearings by the name of the station; a station without a bearing is free. A rotor without weight need
+        not be held. A bearing with other freedoms than x, y needs a station that has them too.
     speed : float [rad/s]
         Angular speed about +z, of either sign.
 

@@ -125,7 +125,7 @@ def joined_whirls(structure: Structure, at: RotorEquilibrium) -> tuple[np.ndarra
     values : ndarray, shape (m,) [1/s]
         Lightly damped ones, one of each pair, and those that grow without whirl.
     shapes : ndarray, shape (N, m)
-        Of the coordinates of the rotor.
+        Shapes of the coordinates of the rotor.
     """
     films = {
         n: film for n, film in frequency_dependent_films(at).items() if hasattr(film.dynamic_stiffness, "at")
@@ -262,7 +262,7 @@ class LeftOut:
     Parameters
     ----------
     model : Condensed
-        In some of the shapes.
+        Model in some of the shapes.
     loads : ndarray, shape (N, m) [N]
     """
 
@@ -301,7 +301,7 @@ class LeftOut:
         at : RotorEquilibrium
         frequency : float [rad/s]
         amplitudes : ndarray, shape (m, k)
-            Of the loads.
+            Amplitudes of the loads.
         motion, dual : ndarray, shape (n, ...)
             x and y in the shapes.
         """

@@ -119,28 +119,27 @@ class RotorModes(Whirls, Readable):
     ----------
     speed : float [rad/s]
     eigenvalues : ndarray, shape (n,) [1/s]
-        Those with a positive imaginary part, which is the damped frequency.
+        Eigenvalues with a positive imaginary part, which is the damped frequency.
     shapes : ndarray, shape (N, n)
         Complex coordinates of the rotor.
     direction : ndarray, shape (n,) [1]
-        From 1, whirl in circles with the rotation, to -1, in circles against it; 0 of axial and torsional
-        motion.
+        From 1 (circular forward whirl) to -1 (circular backward whirl); 0 for axial and torsional motion.
     frequency : ndarray, shape (n,) [rad/s]
         Damped frequency, the imaginary part of the eigenvalues.
     log_decrement : ndarray, shape (n,) [1]
         Negative where the whirl grows.
     error : float [1]
-        Largest relative error of an eigenvalue by the shapes that were left out, estimated; 0 where none
-        were.
+        Estimated largest relative error of an eigenvalue due to neglected mode shapes; 0 if none were
+        neglected.
     roundoff : ndarray, shape (n,) [1/s]
-        How far roundoff may move an eigenvalue, by its condition: a growth rate below it is none.
+        How far roundoff may move an eigenvalue. A growth rate below this is not significant.
     highest_frequency : float [rad/s]
-        Up to which |s| the whirls are told; inf where all are.
+        Largest |s| up to which all modes are listed; inf if all modes are.
     work : dict of str to int
-        Rests of the rotor that were searched (equilibria); eigenproblems in the shapes kept; factorizations
-        of matrices of all coordinates.
+        Counters: equilibria that were searched; eigenproblems in the reduced coordinates (shapes);
+        factorizations of matrices of all coordinates.
     energy : ndarray, shape (3, n) [1]
-        Kinetic energy of lateral, axial and torsional motion over that of all.
+        Share of lateral, axial and torsional motion in the kinetic energy of the mode.
     """
 
     speed: float
@@ -164,7 +163,7 @@ class RotorModes(Whirls, Readable):
     )
 
     def to_table(self) -> ResultTable:
-        """Return the modes, one a row: frequency, log decrement, damping ratio, whirl and kind."""
+        """Return a row for each mode: frequency, log decrement, damping ratio, whirl and kind."""
         kinds = np.array(KINDS)[self.energy.argmax(axis=0)] if self.energy.size else ""
         return ResultTable(
             (
@@ -209,21 +208,22 @@ def rotor_modes(
 ) -> RotorModes:
     """Return the whirl modes of a rotor on its films at a speed.
 
-    Motion that nothing holds, as that of a weightless rotor without bearings as a whole, is no whirl. Up to a
-    frequency a rotor moves in as many of its shapes as that needs.
+    Rigid-body motion that nothing holds is not listed, as of a weightless rotor without bearings. With a
+    `highest_frequency` the rotor is reduced to the mode shapes that this frequency needs.
 
     Parameters
     ----------
     rotor : FlexibleRotor
         Its own speed is not used.
     bearings : mapping of str to Reaction
-        By the name of the station; linearized at the equilibrium of this speed.
+        Bearings by the name of the station; linearized at the equilibrium of this speed.
     speed : float [rad/s]
-        Of either sign; a rotor at rest counts as turning about +z.
+        Speed of either sign; a rotor at rest counts as turning about +z.
     highest_frequency : float [rad/s]
-        Whirls with a larger |s| may be left out, faster ones are. If infinite, all whirls of a rotor of up to
-        160 coordinates (19 default elements); of others those up to the larger of twice the speed and
-        the tenth frequency in a plane of the shaft on no bearings. `RotorModes.highest_frequency` tells it.
+        Modes with a higher frequency are left out. If infinite, a rotor of up to 160 coordinates (19 default
+        elements) gets all its modes. A larger rotor gets those up to the larger of two limits: twice the
+        speed, and the tenth frequency of the free shaft in a plane. `RotorModes.highest_frequency` holds the
+        limit that was used.
 
     Raises
     ------
@@ -444,9 +444,10 @@ class Campbell(Whirls, Drawable):
     ----------
     speeds : ndarray, shape (n_speeds,) [rad/s]
     eigenvalues : ndarray, shape (n_modes, n_speeds) [1/s]
-        By mode; nan where a mode does not oscillate, or is much faster than the modes that were asked for.
+        Eigenvalues by mode; nan where a mode does not oscillate, or is much faster than the modes that were
+        asked for.
     direction : ndarray, shape (n_modes, n_speeds) [1]
-        As in `RotorModes`; nan likewise.
+        Direction as in `RotorModes`; nan likewise.
     frequency : ndarray, shape (n_modes, n_speeds) [rad/s]
         Damped frequency, the imaginary part of the eigenvalues.
     log_decrement : ndarray, shape (n_modes, n_speeds) [1]
@@ -454,11 +455,11 @@ class Campbell(Whirls, Drawable):
     error : float [1]
         Largest of those of `RotorModes`.
     roundoff : ndarray, shape (n_modes, n_speeds) [1/s]
-        As in `RotorModes`; nan likewise.
+        Roundoff as in `RotorModes`; nan likewise.
     highest_frequency : float [rad/s]
-        Modes that stay above it are left out; inf where none is.
+        Modes that stay above this frequency are left out; inf if no mode is left out.
     work : dict of str to int
-        As `RotorModes.work`, of all speeds.
+        Sum of `RotorModes.work` over all speeds.
     """
 
     speeds: Array
@@ -491,7 +492,7 @@ class Campbell(Whirls, Drawable):
         return tuple(sorted(found, key=lambda one: one.speed))
 
     def to_table(self) -> ResultTable:
-        """Return whirls, one a row for each speed and mode, as `RotorModes.to_table` has them."""
+        """Return a row for each speed and mode; the columns are those of `RotorModes.to_table`."""
         modes, count = self.eigenvalues.shape
         known = np.isfinite(self.eigenvalues).T.ravel()
         columns = (
@@ -542,11 +543,11 @@ class CriticalSpeed(Readable):
     Attributes
     ----------
     speed : float [rad/s]
-        Of the sign of the speeds searched.
+        Critical speed, with the sign of the speeds searched.
     log_decrement : float [1]
-        Of that whirl.
+        Log decrement of that whirl.
     direction : float [1]
-        As in `RotorModes`; an unbalance excites forward whirl.
+        Direction as in `RotorModes`; an unbalance excites forward whirl.
     """
 
     speed: float
@@ -573,11 +574,12 @@ def campbell(
     rotor, bearings
         As in `rotor_modes`.
     speeds : array_like, shape (n,) [rad/s]
-        Rising or falling, of either sign; so close that modes do not change beyond recognition from one to
-        the next.
+        Rising or falling speeds, of either sign. They must be close enough that modes can be followed from
+        one speed to the next.
     highest_frequency : float [rad/s]
-        Modes that stay above it are left out. If infinite, as in `rotor_modes`, so that a shaft of more than
-        19 elements has only its lower modes; `Campbell.highest_frequency` tells it.
+        Modes that stay above it are left out. If infinite, the limit is that of `rotor_modes`: a shaft of
+        more than 19 elements has only its lower modes. `Campbell.highest_frequency` holds the limit that was
+        used.
 
     Raises
     ------
@@ -623,7 +625,7 @@ def critical_speeds(
     rotor, bearings
         As in `rotor_modes`.
     speeds : array_like, shape (n,) [rad/s]
-        Rising or falling, of either sign: the range searched, and the steps in which that begins.
+        Rising or falling speeds, of either sign: they set the range and the first steps of the search.
 
     Returns
     -------
@@ -684,20 +686,21 @@ def _listed(rotor: FlexibleRotor, found: Iterable[Crossing]) -> list[CriticalSpe
 @one_blas_thread
 @arguments
 def resonant_speeds(speeds: ArrayLike, critical: Sequence[CriticalSpeed]) -> Array:
-    """Return the speeds with more of them across the resonances between them, so that no peak is cut off.
+    """Return the speeds with more points around each critical speed, so that resonance peaks are resolved.
 
     Parameters
     ----------
     speeds : array_like, shape (n,) [rad/s]
         Rising.
     critical : sequence of CriticalSpeed
-        As `critical_speeds` returns them. Those without damping are left out: their peak has no height.
+        Critical as `critical_speeds` returns them. Critical speeds without damping are left out, since their
+        peak is infinite.
 
     Returns
     -------
     ndarray, shape (m,) [rad/s]
-        Rising, within the range of `speeds`: these, and 21 across each resonance, two half-widths to each
-        side. The half-width of a peak is speed log_decrement / (2 pi).
+        Rising speeds within the range of `speeds`: the given ones, and 21 around each resonance, up to two
+        half-widths to each side. The half-width of a peak is speed log_decrement / (2 pi).
     """
     grid, width = np.asarray(speeds, dtype=float), np.linspace(-2.0, 2.0, PEAK_SPEEDS)
     damped = [one for one in critical if abs(one.log_decrement) > LEAST_DECREMENT]
@@ -765,13 +768,13 @@ class RotorThreshold(Readable):
     whirl_ratio : float or None [1]
         whirl_frequency / |speed|.
     direction : float or None [1]
-        As in `RotorModes`.
+        Direction as in `RotorModes`.
     reason : str
         Empty, or why there is no threshold.
     speed_error : float or None [rad/s]
         Estimated error of the speed by the neglected shapes; 0 if there are none.
     work : dict of str to int
-        As `RotorModes.work`.
+        Work as `RotorModes.work`.
     """
 
     speed: float | None = None
@@ -793,12 +796,12 @@ class StabilityChange(Readable):
     whirl_frequency : float [rad/s]
         0 where the rotor departs to one side instead of whirling (divergence).
     direction : float [1]
-        As in `RotorModes`.
+        Direction as in `RotorModes`.
     growing : int [1]
-        How many eigenvalues grow beyond this speed, in the order searched: two of a whirl, one of a
-        divergence. 0 where the rotor is stable again.
+        Number of growing eigenvalues beyond this speed, in the order searched: two for a whirl, one for a
+        divergence. 0 if the rotor is stable again.
     speed_error : float [rad/s]
-        As in `RotorThreshold`.
+        Speed error as in `RotorThreshold`.
     """
 
     speed: float
@@ -820,11 +823,11 @@ def rotor_threshold(
     rotor, bearings
         As in `rotor_modes`.
     speeds : array_like, shape (n,) [rad/s]
-        Rising or falling, of either sign, searched in this order; stability lost and regained within one step
-        goes unseen.
+        Rising or falling, of either sign, searched in this order. An instability that begins and ends within
+        one step is not found.
     report : callable, optional
-        Told how far the search is, as the share of the speeds that are done and the next one: on
-        frequency-dependent films each takes seconds.
+        Called with the progress of the search: the share of the speeds that are done, and the next speed.
+        With frequency-dependent films each speed takes seconds.
 
     Notes
     -----
@@ -835,8 +838,8 @@ def rotor_threshold(
     faster motions. The error of the speed is the error of s divided by the slope of Re s over the speed,
     `speed_error`.
 
-    On frequency-dependent films exponents are those with K(s). At each of the speeds given those that grow
-    are counted besides by the phase of the determinant along all frequencies: none is missed unseen.
+    With frequency-dependent films the exponents are those with K(s). At each given speed the growing
+    exponents are also counted by the phase of the determinant along all frequencies, so none is missed.
 
     Raises
     ------
@@ -874,8 +877,8 @@ def stability_changes(
     rotor, bearings
         As in `rotor_modes`.
     speeds : array_like, shape (n,) [rad/s]
-        Rising or falling, of either sign, searched in this order; a motion that begins and ceases to grow
-        within one step goes unseen.
+        Rising or falling, of either sign, searched in this order. A motion that begins and ceases to grow
+        within one step is not found.
     report : callable, optional
         As in `rotor_threshold`.
 

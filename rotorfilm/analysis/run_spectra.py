@@ -46,7 +46,7 @@ class RunAmplitudes(Drawable):
     synchronous : ndarray of complex, shape (n,) [m]
         The 1x part, zero-to-peak: a phasor at exp(i angle of the shaft).
     signal : str
-        Its name, such as left_x.
+        Name of the signal, such as left_x.
     """
 
     speed: Array
@@ -67,11 +67,11 @@ class RunSpectra(Drawable):
     speed : ndarray, shape (n,) [rad/s]
         Mean speed of a window; nan where it is not known.
     frequency : ndarray, shape (m,) [rad/s]
-        Rising from negative, backward whirl, to positive, forward whirl.
+        Rising, from negative values (backward whirl) to positive values (forward whirl).
     whirl_amplitude : ndarray, shape (n, m) [m]
         Radius of the circle of that frequency, zero-to-peak.
     station : str
-        Its name; empty for the only one.
+        Name of the station; empty for the only one.
     """
 
     time: Array
@@ -119,9 +119,9 @@ def run_amplitudes(
     signal : str
         A displacement; the first along x by default.
     speed : SpeedProfile or float [rad/s], optional
-        Of the run; its signal `speed` by default.
+        Speed of the run; its signal `speed` by default.
     turns : int
-        Of the shaft in a window.
+        Turns of the shaft in a window.
 
     Raises
     ------
@@ -160,15 +160,15 @@ def run_spectra(
     Parameters
     ----------
     run : Trajectory
-        Times that are not even are interpolated linearly.
+        Run whose samples, if not evenly spaced, are interpolated linearly.
     station : str
-        Such as "left" for left_x and left_y; the first by default.
+        Station such as "left" for left_x and left_y; the first by default.
     speed : SpeedProfile or float [rad/s], optional
-        Of the run; its signal `speed` by default, where it has one.
+        Speed of the run; its signal `speed` by default, where it has one.
     windows : int
-        Their number; one for a spectrum of the whole run.
+        Number of windows; 1 for a spectrum of the whole run.
     start : float [s]
-        Of the first window; the start of the run by default.
+        Start of the first window; the start of the run by default.
 
     Raises
     ------
@@ -222,7 +222,7 @@ def run_orbits(
     station, speed
         As in `run_spectra`.
     turns : int
-        Of the shaft, at these speeds.
+        Number of turns of the shaft that each orbit shows.
 
     Raises
     ------

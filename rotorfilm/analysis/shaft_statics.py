@@ -31,18 +31,18 @@ class ShaftStatics(Drawable):
     Attributes
     ----------
     positions : ndarray, shape (n_nodes,) [m]
-        Of the nodes along the shaft.
+        Positions of the nodes along the shaft.
     sag : ndarray, shape (2, n_nodes) [m]
         Deflection of the nodes along x and y.
     places : ndarray, shape (n_places,) [m]
         Both ends of each element, from the first to the last.
     shear_force : ndarray, shape (2, n_places) [N]
-        Along x and y, of what follows along the shaft on what comes before it.
+        Shear force along x and y, from the part of the shaft after the cut on the part before it.
     bending_moment : ndarray, shape (2, n_places) [N m]
         E I d tilt / dz in the planes of x and y, positive where the shaft is bent towards +x, +y; its slope
         is the opposite of the shear force.
     loads : dict of str to ndarray, shape (2,) [N]
-        On each bearing, by station.
+        Loads on each bearing, by station.
     """
 
     positions: Array
@@ -67,12 +67,12 @@ def shaft_statics(
     ----------
     rotor : ShaftRotor
     bearings : mapping of str to Reaction, optional
-        By station, at rest at the speed; by default rigid bearings and housings at `supports`.
+        Bearings by station, at rest at the speed; by default rigid bearings and housings at `supports`.
     speed : float [rad/s]
-        Of the films.
+        Speed of the films.
     supports : sequence of str, optional
-        Names of the stations with rigid bearings, where none are given: all by default, so that those of
-        seals are to be left out here.
+        Names of the stations with rigid bearings, where no bearings are given: all by default, so name them
+        if some stations are seals.
 
     Raises
     ------
@@ -193,9 +193,9 @@ def rigid_support_speed(rotor: ShaftRotor, supports: Sequence[str] | None = None
     Parameters
     ----------
     rotor : ShaftRotor
-        Held by its stations, so by two at least, or by one and a tilt spring.
+        Rotor that is held by two stations at least, or by one and a tilt spring.
     supports : sequence of str, optional
-        Names of the stations that hold it; all by default, so that those of seals are to be left out here.
+        Names of the stations that hold it; all by default, so name them if some stations are seals.
 
     Raises
     ------

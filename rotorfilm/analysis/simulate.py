@@ -71,18 +71,19 @@ def simulate(
 
     Rotor and film are connected by the names of their signals and integrated together, with the exact
     Jacobian of both, so no coupling error arises. The integration stops at the `breakpoints` of the rotor.
-    The mass that the oil of a damper adds is part of the same system. A linear rotor on films that have
-    kernels is integrated in C, as by `simulate_rotor`, all others by scipy; mass-conserving films, as
-    `JFOFilm`, with the rotor in one Newton step, by differences of second order.
+    The added mass of the oil of a damper is part of the same system. A linear rotor on films that have
+    kernels is integrated in C, as by `simulate_rotor`, and all others by scipy. A mass-conserving film, such
+    as `JFOFilm`, is solved together with the rotor in one Newton iteration per step, by backward differences
+    of second order.
 
     Parameters
     ----------
     rotor : Dynamic
-        With outputs x, y, vx, vy, speed and inputs force_x, force_y.
+        Rotor with outputs x, y, vx, vy, speed and inputs force_x, force_y.
     reaction : Reaction, JFOFilm, or mapping of str to either
-        The film; one with states is a Dynamic too, as `BushReaction`. One whose temperature is left to the
-        balance of its heat gets it as a state. Mass-conserving films begin steady. A flexible rotor takes one
-        for each station by name; `mount` takes those of some stations where the last is of another kind.
+        The film. If the heat balance determines its temperature, the temperature becomes a state.
+        Mass-conserving films start from their steady state. A flexible rotor takes one film for each station
+        by name; use `mount` where the last one is of another kind.
     duration : float [s]
     samples : int
         Number of samples at equal distance, from 0 to `duration` inclusive.
@@ -92,22 +93,21 @@ def simulate(
         State at t = 0, instead of the models' own: that of the rotor, then that of a film with states.
     rtol : float [1]
         Relative local error of a step; the absolute one is rtol times the nominal value of each state. For
-        mass-conserving films `max_step` says how exact it is, and `Trajectory.step_error` how exact it was.
+        mass-conserving films `max_step` sets the accuracy instead, and `Trajectory.step_error` estimates it.
     max_step : float [s]
         Longest step of the integrator. Mass-conserving films take steps of this length, unless cut short; by
         default 1/384 of a turn at the highest speed.
     method : a class derived from scipy.integrate.OdeSolver, optional
-        Stiff methods are given the exact Jacobian. By default the compiled integration where it takes rotor
-        and film (`analysis.compiled_rotor`) and comes to the end, `scipy.integrate.Radau` otherwise.
+        Stiff methods are given the exact Jacobian. By default the compiled integration, if it supports this
+        rotor and film (`analysis.compiled_rotor`), otherwise `scipy.integrate.Radau`.
 
     Returns
     -------
     Trajectory
-        Signals: every output of the rotor, the film force on the journal [N], and of a film with states
-        its further outputs and its states. Work:
-        film_evaluations, jacobians, steps, restarts (steps cut short at the wall), of the compiled
-        integration also rejected (those and all others cut short); with mass-conserving films steps,
-        newton_steps, film_solutions, restarts.
+        Signals: every output of the rotor, the film force on the journal [N], and for a film with states its
+        further outputs and its states. Counters in `work`: film_evaluations, jacobians, steps and restarts
+        (steps cut short at the wall); for the compiled integration also rejected (all steps cut short). With
+        mass-conserving films they are steps, newton_steps, film_solutions and restarts.
 
     Raises
     ------
@@ -343,7 +343,7 @@ class Coupled:
     ----------
     rotor : Dynamic
     films : mapping of str to Any
-        By station; the empty name is that of a rotor with one journal. Inputs of other stations are 0.
+        Films by station; the empty name is that of a rotor with one journal. Inputs of other stations are 0.
 
     Attributes
     ----------
@@ -488,12 +488,13 @@ class Coupled:
 
 @dataclass(frozen=True, kw_only=True)
 class RingContacts(Readable):
-    """The contacts of a rotor with its ring, in their order.
+    """The contacts of a rotor with its rub ring, in the order of time.
 
     Attributes
     ----------
     begin, end : ndarray, shape (n,) [s]
-        Of each; the first and last sample where a contact goes on beyond them.
+        Begin and end of each contact. A contact that goes on at the first or last sample begins or ends
+        there.
     normal_force : ndarray, shape (n,) [N]
         Largest normal force among its samples.
     """
@@ -505,7 +506,7 @@ class RingContacts(Readable):
 
 @arguments
 def ring_contacts(run: Trajectory, ring: Reaction, station: str = "") -> RingContacts:
-    """Return the contacts of a run, to the fourth order of the distance of its samples.
+    """Return the rub contacts of a run, with an error of fourth order in the distance of its samples.
 
     Between two samples the motion is the cubic of their positions and velocities; a contact between two
     samples that are both free is not seen.
@@ -513,7 +514,7 @@ def ring_contacts(run: Trajectory, ring: Reaction, station: str = "") -> RingCon
     Parameters
     ----------
     run : Trajectory
-        With x, y, vx, vy and speed, those of the station by its name.
+        Run with x, y, vx, vy and speed, those of the station by its name.
     ring : RubRing
     station : str
         Name of the station of the ring.

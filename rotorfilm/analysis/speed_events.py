@@ -52,7 +52,7 @@ class SpeedEvent(NamedTuple):
     rate : callable
         The derivative of that by the speed [1], from that of the eigenvalue.
     frequency : callable
-        Of s and the speed: the frequency at which hysteresis is taken [rad/s].
+        Frequency of s and the speed: the frequency at which hysteresis is taken [rad/s].
     sightings : callable
         Of rotor, bearings and speeds: the lowest such speed, and those near it, each with the eigenvalue of
         its whirl; AbsentError if there is none.
@@ -139,7 +139,7 @@ class FoundSpeed(NamedTuple):
     ----------
     speed : float [rad/s]
     slope : float
-        Of the lead over the speed there.
+        Slope of the lead over the speed there.
     solution : object
         What was found with the lead there.
     """
@@ -163,11 +163,11 @@ def secant_speed(
     Parameters
     ----------
     lead_at : callable
-        From a speed [rad/s] to the lead, and what else was found with it.
+        Lead at from a speed [rad/s] to the lead, and what else was found with it.
     speed : float [rad/s]
-        Where the search starts.
+        Speed where the search starts.
     slope : float
-        Of the lead over the speed there; secants take its place.
+        Slope of the lead over the speed there; secants take its place.
     near : float [1]
         Change of speed at which the search ends.
     farthest : float [1]

@@ -57,10 +57,10 @@ def simulate_steps(
     rotor : Dynamic
     films : film that takes steps, as a `JFOFilm`, or mapping of station to such films
     times : ndarray, shape (n,) [s]
-        Of the samples.
+        Times of the samples.
     duration : float [s]
     initial_state : array_like, shape (n_states,), optional
-        Of the rotor; by default its own.
+        Initial state of the rotor; by default its own.
     max_step : float [s]
 
     Raises
@@ -180,7 +180,7 @@ class FilmStation(NamedTuple):
     Attributes
     ----------
     name : str
-        Of the station; empty where there is one only.
+        Name of the station; empty where there is one only.
     film : Stepped
     motion, force : list of int
         Indices among the outputs of the rotor, x, y, vx, vy, speed, and among its inputs.
@@ -199,7 +199,7 @@ class Moment(NamedTuple):
     ----------
     time : float [s]
     state : ndarray, shape (n_states,)
-        Of the rotor.
+        State of the rotor.
     rate : ndarray, shape (n_states,)
         Its derivative.
     films : tuple

@@ -48,25 +48,25 @@ MOST_BELOW, MOST_ABOVE = 0.16, 0.26
 
 @dataclass(frozen=True, kw_only=True)
 class ResonancePeak(Readable):
-    """A peak of a response over speed, judged by API 617.
+    """A resonance peak of a response over speed, with its separation margin by API 617.
 
     Attributes
     ----------
     output : str
         What responds.
     speed : float [rad/s]
-        Of the peak, the critical speed.
+        Speed of the peak, the critical speed.
     peak_amplitude : float [m]
-        There.
+        Amplitude at the peak.
     amplification_factor : float [1]
-        AF = speed / (speed2 - speed1) between the speeds at which the amplitude is 0.707 of the peak; of a
-        peak with one such side twice the distance to it; nan with none.
+        AF = speed / (speed2 - speed1) between the speeds at which the amplitude is 0.707 of the peak; if only
+        one of them exists, twice the distance to it counts; nan if none exists.
     separation_margin : float [1]
         Distance from the operating range / its nearer end; 0 within it.
     required_margin : float [1]
-        By the amplification factor; nan with that.
+        Margin that the amplification factor requires; nan if that factor is nan.
     acceptable : bool
-        Whether the margin is what is required. False where it cannot be told.
+        Whether the margin is large enough. False if it is unknown.
     """
 
     output: str
@@ -85,17 +85,17 @@ class SeparationMargins(Drawable):
     Attributes
     ----------
     verdict : str
-        In plain words.
+        Verdict in plain words.
     acceptable : bool
-        Whether all peaks are.
+        Whether all peaks are acceptable.
     minimum_speed, maximum_speed : float [rad/s]
         Operating range.
     peaks : tuple of ResonancePeak
-        By output and rising speed.
+        Peaks by output and rising speed.
     speeds : ndarray, shape (n_speeds,) [rad/s]
-        Of the response.
+        Speeds of the response.
     amplitudes : dict of str to ndarray, shape (n_speeds,) [m]
-        By output.
+        Amplitudes by output.
     """
 
     verdict: str
@@ -195,12 +195,12 @@ def separation_margins(
     Parameters
     ----------
     response : control.FrequencyResponseData
-        As `unbalance_response` returns it, at speeds that resolve the peaks (`resonant_speeds`) and go well
-        beyond the operating range; API 617 wants 150 % of the maximum speed.
+        Response as `unbalance_response` returns it, at speeds that resolve the peaks (`resonant_speeds`) and
+        go well beyond the operating range; API 617 wants 150 % of the maximum speed.
     minimum_speed, maximum_speed : float [rad/s]
         Operating range, up to the maximum continuous speed.
     outputs : sequence of str, optional
-        Names of displacements; all of the response by default. API 617 judges the probes.
+        Names of displacements; all of the response by default. API 617 uses those at the probes.
 
     Raises
     ------
@@ -305,13 +305,13 @@ def bow_response(
 ) -> control.FrequencyResponseData:
     """Return the synchronous response of a rotor to a bow of its shaft.
 
-    Unbalances are left out: the sum with `unbalance_response` is the whole response.
+    Unbalances are not included: the whole response is the sum with that of `unbalance_response`.
 
     Parameters
     ----------
     rotor : ShaftRotor
     bearings : mapping of str to Reaction
-        By the name of the station; each is linearized at the equilibrium of every speed.
+        Bearings by the name of the station; each is linearized at the equilibrium of every speed.
     speeds : array_like, shape (n,) [rad/s]
         Angular speeds, positive and rising.
     bow : array_like of complex, shape (n_nodes,) [m]
@@ -321,8 +321,8 @@ def bow_response(
     Returns
     -------
     control.FrequencyResponseData
-        Input `bow` [1]: the bow, 1 as it is. Outputs as of `unbalance_response`, displacements with the bow
-        in them: a slow shaft on rigid bearings moves as it is bent.
+        Input `bow` [1]: the bow, 1 as it is. Outputs as of `unbalance_response`, displacements that include
+        the bow: a slow shaft on rigid bearings moves as it is bowed.
 
     Raises
     ------
@@ -373,17 +373,17 @@ LEAST_SAMPLES = 12
 def tracked_response(
     run: Trajectory, speed: SpeedProfile, outputs: Sequence[str] | None = None, *, turns: int = 2
 ) -> control.FrequencyResponseData:
-    """Return the 1x part of signals over speed, from a run-up or a coast-down.
+    """Return the synchronous (1x) part of signals over speed, from a run-up or a coast-down.
 
-    Bode and polar plots and separation margins take it as they take an `unbalance_response`.
+    Bode plots, polar plots and separation margins accept the result like that of `unbalance_response`.
 
     Parameters
     ----------
     run : Trajectory
-        With at least 12 samples a turn.
+        Run with at least 12 samples a turn.
     speed : SpeedProfile
-        Of the run: positive, and rising or falling throughout it; samples while it stays the same are left
-        out.
+        Speed of the run: positive, and rising or falling throughout it; samples while it stays the same are
+        left out.
     outputs : sequence of str, optional
         Names of signals; all displacements along x and y by default.
     turns : int
@@ -403,7 +403,7 @@ def tracked_response(
     Notes
     -----
     A least-squares fit of a constant, a slope, and cos and sin of the shaft's angle with amplitudes that
-    change linearly over the window: what is not at one or zero times the speed is averaged out.
+    change linearly over the window: motion that is neither synchronous nor constant is averaged out.
     """
     require_count("turns", turns)
     names = [n for n in run.signals if n.rpartition("_")[2] in ("x", "y")] if outputs is None else [*outputs]
@@ -495,20 +495,21 @@ def mode_unbalances(
     Parameters
     ----------
     rotor : ShaftRotor
-        With weight, and its unbalances, which are left out.
+        Rotor with weight. Its own unbalances are not used.
     at : RotorEquilibrium
-        As `rotor_equilibrium` returns it, at the maximum continuous speed.
+        Equilibrium as `rotor_equilibrium` returns it, at the maximum continuous speed.
     mode : int
         Number of the undamped mode in a plane, from 1: on the mean stiffness of each bearing along x and y.
     multiple : float [1]
-        Of the residual unbalance 6350 W / N: 2 in API 617 (7th and 8th ed.), 4 in API 684 (1st ed.).
+        Multiple of the residual unbalance 6350 W / N: 2 in API 617 (7th and 8th ed.), 4 in API 684 (1st ed.).
 
     Returns
     -------
     tuple of Unbalance
-        One where the mode moves most in each part that moves to one side, at an angle of 0 or pi. Between
-        bearings one part has the load of all journals, more of them each that of the nearest journal; a part
-        that moves most beyond the bearings has the overhung mass.
+        One unbalance in each part of the shaft that moves to one side, at the place of the largest
+        displacement, with an angle of 0 or pi. A single part between the bearings is sized by the load of all
+        journals, several parts each by that of the nearest journal. A part that moves most beyond the
+        bearings is sized by the overhung mass.
 
     Raises
     ------
@@ -599,12 +600,13 @@ class MeshConvergence(Readable):
     frequency : ndarray, shape (n_meshes,) [rad/s]
         Damped frequency of the mode.
     order : float [1]
-        Of convergence, measured on the last three meshes; nan where they differ by roundoff only, or the
-        changes alternate or do not shrink, so that nothing converges yet.
+        Order of convergence, measured on the last three meshes; nan where they differ by roundoff only, or
+        the changes alternate or do not shrink, so that nothing converges yet.
     estimate : float [rad/s]
-        By Richardson's extrapolation from the last two with that order; the last frequency where it is nan.
+        Estimate by Richardson's extrapolation from the last two with that order; the last frequency where it
+        is nan.
     relative_error : float [1]
-        Of the first mesh, that of the rotor as it is, against the estimate; signed.
+        Relative error of the first mesh, that of the rotor as it is, against the estimate; signed.
     """
 
     elements: Array
@@ -624,9 +626,9 @@ def mesh_convergence(
     Parameters
     ----------
     rotor : ShaftRotor
-        On its own elements first.
+        Rotor; the first mesh is that of its own elements.
     bearings : mapping of str to Reaction
-        As in `rotor_modes`.
+        Bearings as in `rotor_modes`.
     speed : float [rad/s]
     mode : int
         Number of the whirl among the `rotor_modes` of the rotor, from 1; on the finer elements it is the one

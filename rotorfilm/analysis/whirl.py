@@ -72,8 +72,9 @@ def whirl_threshold(
     Parameters
     ----------
     reaction : Reaction
-        The film; of one with states that rest, as tilting pads, rotor and states are judged together, and
-        of one that conserves its oil, rotor and oil by K(s): the result is a `VerifiedThreshold`.
+        The film. If it has states that rest, such as tilting pads, the stability is that of rotor and states
+        together. For a mass-conserving film it is that of rotor and film with K(s), and the result is a
+        `VerifiedThreshold`.
     load : array_like, shape (2,) [N]
         External static force on the journal, weight included.
     mass : float [kg]
@@ -85,9 +86,8 @@ def whirl_threshold(
     Returns
     -------
     WhirlThreshold
-        With speed None and a reason where there is no threshold in the range. Speeds too low for the film
-        to carry the load, below the first with an equilibrium, are passed over; a film that does not carry it
-        at the highest speed carries it at none.
+        The threshold. If there is none in the range, its speed is None and it states the reason. Speeds that
+        are too low for the film to carry the load are skipped.
 
     Raises
     ------
@@ -101,13 +101,13 @@ def whirl_threshold(
     Warns
     -----
     ValidityWarning
-        Of a threshold beyond what the film is meant for. Speeds that the search only passes give no warning;
-        where no threshold is found, the reason says which of them are in doubt.
+        If the threshold is outside the range of validity of the film. Other speeds of the search give no
+        warning; if no threshold is found, the reason names the speeds that are in doubt.
 
     Notes
     -----
     The range is scanned upwards in steps of 21 % and the first loss of stability is refined to roundoff;
-    stability lost and regained within one step goes unseen.
+    an instability that begins and ends within one step is not found.
     """
     require_reaction("reaction", reaction, planar=True)
     require_positive("mass", mass)
@@ -336,7 +336,7 @@ class CriticalMass(Readable):
     whirl_ratio : float or None [1]
         whirl_frequency / |speed|; None at zero speed too.
     reason : str
-        Empty, or why there is no critical mass.
+        Why there is no critical mass; empty if there is one.
     """
 
     mass: float | None
@@ -352,9 +352,9 @@ class VerifiedCriticalMass(CriticalMass):
     Attributes
     ----------
     growing_below, growing_above : int [1]
-        How many exponents s of det(K(s) + mass s^2) = 0 grow with lighter and with heavier rotors, up to the
-        next border; counted by the phase along all frequencies, so that none is missed. Without a border
-        both are those of any mass.
+        Number of growing exponents s of det(K(s) + mass s^2) = 0 for lighter and for heavier rotors, up to
+        the next border. They are counted by the phase along all frequencies, so that none is missed. Without
+        a border both numbers hold for any mass.
     """
 
     growing_below: int
@@ -369,8 +369,8 @@ def critical_mass(coefficients: Coefficients) -> CriticalMass:
     ----------
     coefficients : Coefficients
         Film stiffness K and damping C; they act on the whole mass. With `FrequencyDependentCoefficients`, as
-        `coefficients` returns them of a film that conserves its oil, the border is that of K(s) at the whirl
-        itself, and the result a `VerifiedCriticalMass`.
+        `coefficients` returns them for a mass-conserving film, the border is found with K(s) at the whirl
+        frequency, and the result is a `VerifiedCriticalMass`.
 
     Notes
     -----
@@ -516,8 +516,8 @@ class VerifiedThreshold(WhirlThreshold):
     Attributes
     ----------
     growing_below, growing_above : int [1]
-        How many exponents of rotor and film grow at a speed 0.1 % lower and higher, counted by the phase of
-        det(K(i nu) - mass nu^2) along all frequencies nu, so that none is missed: 0 and 2.
+        Number of growing exponents of rotor and film at a speed 0.1 % lower and higher, counted by the phase
+        of det(K(i nu) - mass nu^2) along all frequencies nu, so that none is missed: 0 and 2.
     """
 
     growing_below: int

@@ -237,7 +237,7 @@ class SharedReaction(InertialModel):
         Parameters
         ----------
         frequency : float [rad/s]
-            Of the motion.
+            Frequency of the motion.
         """
         for one in self.reactions:
             require_range(one, frequency)
@@ -248,13 +248,13 @@ class SharedReaction(InertialModel):
 class Parallel(SharedReaction):
     """Reactions side by side on one shaft: forces and added masses add up, states stand one after the other.
 
-    It reacts to all motions to which one of them does, as a journal bearing beside a thrust bearing. States
-    have the number of their reaction in front, as part0_tilt_1.
+    It reacts to all motions to which one of them does, as a journal bearing beside a thrust bearing. The name
+    of a state begins with the number of its reaction, for example part0_tilt_1.
 
     Parameters
     ----------
     reactions : tuple of Reaction
-        Two at least, all about the same center.
+        At least two reactions, all about the same center.
 
     Raises
     ------
@@ -281,9 +281,10 @@ class Parallel(SharedReaction):
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
-        """Signals of places, rates and speed, as of the reactions with the smallest nominal displacements.
+        """Signals of positions, velocities and speed.
 
-        Those without a wall, as springs, know no length of their own and come last.
+        Their nominal values are those of the reaction with the smallest nominal displacement. Reactions
+        without a wall, such as springs, have no length of their own and come last.
         """
         ordered = sorted(self.reactions, key=lambda one: (_is_open(one), one.inputs[0].nominal))
         first = {signal.name: signal for one in reversed(ordered) for signal in one.inputs}
@@ -318,17 +319,17 @@ class Parallel(SharedReaction):
         return any(map(carries_load, self.reactions))
 
     def minimum_film(self, position: ArrayLike) -> Array:
-        """Return the least film of all [m], shape (...), of journals at positions (n, ...) [m]."""
+        """Return the minimum film of all reactions [m], shape (...), at journal positions (n, ...) [m]."""
         q = require_vector("position", position, len(self.freedoms))
         return np.min([minimum_film(one, q[rows]) for one, rows, _, _ in self._places], axis=0)
 
     def require_film(self, position: Array) -> None:
-        """Do nothing: each reaction says itself where it is touched."""
+        """Do nothing: each reaction raises its own error where the journal touches."""
 
     def compiled(self) -> FilmCall | None:
         """Return the sum of the forces in the C library; None where one has none, or for a subclass.
 
-        The added mass is with it where one of them has one.
+        It includes the added mass, if a reaction has one.
         """
         calls = [compiled_force(one) for one in self.reactions]
         if type(self) is not Parallel or not all(calls):
@@ -337,7 +338,7 @@ class Parallel(SharedReaction):
         return reduce(FilmCall.plus, calls)._replace(mass=masses[0] if len(masses) == 1 else MASSLESS)
 
     def native(self) -> NativeSpec | None:
-        """Return the kernel of its one reaction besides equal springs; None where that takes none."""
+        """Return the kernel, if one reaction has one and all others are equal springs; else None."""
         others = [one for one in self.reactions if not _equal_springs(one)]
         if type(self) is not Parallel or len(others) != 1 or not isinstance(others[0], HasKernel):
             return None
@@ -446,7 +447,7 @@ class Parallel(SharedReaction):
         return Linearization(A, B, np.vstack([C, np.zeros((len(slopes), len(A)))]), np.vstack([D, slopes]))
 
     def rest_state(self, position: ArrayLike, speed: float) -> Array:
-        """Return the states of all that rest with the shaft at a place (n,)."""
+        """Return the equilibrium states of all reactions for a shaft at rest at a position (n,)."""
         q = require_finite("position", position)
         return np.concatenate([rest_state(one, q[rows], speed) for one, rows, _, _ in self._places])
 
@@ -458,15 +459,15 @@ class Parallel(SharedReaction):
         return self if held else replace(self, reactions=parts)
 
     def at_rest(self) -> Any:
-        """Return the reaction without states: with those that rest at rest; itself where it has none."""
+        """Return the reaction with its states at their equilibrium, or itself if it has no such states."""
         return AssemblyAtRest(self.leaking) if self.states_rest else self
 
     def parts_at_rest(self, position: Array, speed: float) -> list[PartAtRest]:
-        """Return its reactions under a shaft at rest at a place (n,)."""
+        """Return its reactions for a shaft at rest at a position (n,)."""
         return [PartAtRest(one, position[rows], speed) for one, rows, _, _ in self._places]
 
     def rest_place(self, load: Sequence[float], speed: float) -> Array | None:
-        """Return about where the shaft rests: where the first journal or ball bearing says that it does."""
+        """Return a first guess of the equilibrium, from the first journal or ball bearing."""
         push, place = np.array(load), np.zeros(len(self.freedoms))
         for one, rows, _, _ in self._places:
             told = told_place(one, push[rows], speed) if {*PLANAR} <= {*freedoms_of(one)} else None
@@ -528,18 +529,19 @@ def _equal_springs(reaction: Any) -> float:
 
 @arguments
 def with_springs(reaction: PlanarReaction, stiffness: ArrayLike) -> Parallel:
-    """Return a film in parallel with springs to the housing, as the retainer springs of a damper.
+    """Return a film in parallel with springs to the housing, such as the retainer springs of a damper.
 
-    It has a kernel and an FMU without Python where the reaction has one, as a damper, and the springs are
-    equal along x and y. The springs are preloaded so that they carry the static load where the rotor is
-    centered: give the rotor no gravity. Their force is part of what reaches the housing.
+    It has a kernel, and an FMU that needs no Python, if the reaction has one and the springs are equal along
+    x and y. The springs are preloaded so that they carry the static load where the rotor is centered: give
+    the rotor no gravity. The spring force is part of the force on the housing.
 
     Parameters
     ----------
     reaction : PlanarReaction
-        To x and y, such as a `PorousDamper`.
+        Film that reacts to x and y only, such as a `PorousDamper`.
     stiffness : float [N/m], or 2 or 2 x 2 numbers
-        Of the springs together: along either axis, along x and y, or rows for force x, y.
+        Total stiffness of the springs: one number for both axes, one for each axis, or a matrix with a row
+        for each force.
 
     Raises
     ------

@@ -35,7 +35,7 @@ def differences(function: Callable[[Array], Array], state: Array, steps: Array) 
     Parameters
     ----------
     function : callable
-        From states, shape (m, ...), to values, shape (k, ...). It is called once.
+        Function from states, shape (m, ...), to values, shape (k, ...). It is called once.
     state, steps : ndarray, shape (m, ...)
         Where, and the largest step along each number, in its unit.
 

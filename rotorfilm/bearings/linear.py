@@ -88,8 +88,8 @@ def headings(freedoms: tuple[str, ...]) -> list[str]:
 class TabulatedBearing(Plottable, Tabled, LinearReaction):
     """force = -K(speed) position - C(speed) velocity: a Reaction for small motion about an equilibrium.
 
-    Between the speeds the entries follow a monotone cubic (Fritsch & Butland 1984); beyond them the bearing
-    refuses. A single speed makes a table that holds for that speed only.
+    Between the speeds the entries follow a monotone cubic (Fritsch & Butland 1984); beyond them an error is
+    raised. A table with a single speed holds for that speed only.
 
     Parameters
     ----------
@@ -146,13 +146,13 @@ class TabulatedBearing(Plottable, Tabled, LinearReaction):
         return cls(speeds=numbers[:, 0], stiffness=tables[:, 0], damping=tables[:, 1], freedoms=freedoms)
 
     def found_at(self, equilibria: Sequence[Equilibrium]) -> TabulatedBearing:
-        """Return the table with the equilibria where it was found, one a speed, for print and tables."""
+        """Return the table together with the equilibrium of each speed, for printing and tables."""
         found = replace(self)
         object.__setattr__(found, "_equilibria", tuple(equilibria))
         return found
 
     def to_table(self) -> ResultTable:
-        """Return the speeds, one a row: what is known of the equilibria, and K and C by their entries."""
+        """Return a row for each speed: the equilibrium if known, and the entries of K and C."""
         rests = vars(self).get("_equilibria", ())
         return ResultTable(
             (
@@ -278,8 +278,8 @@ class LinearBearing(LinearReaction):
     ----------
     stiffness : float [N/m] or n x n numbers
         Rows: forces and moments, as force x, y; columns: places, as position x, y; both in the order of the
-        freedoms, in [N/rad], [N], [N m/rad] where there are tilts. One number is the same along all
-        directions, n numbers are the diagonal.
+        freedoms. Entries of tilts are in [N/rad], [N] and [N m/rad]. One number holds for all directions, n
+        numbers are the diagonal.
     damping : float [N s/m] or n x n numbers
         The same by the rates.
     freedoms : tuple of str
@@ -366,7 +366,7 @@ class LinearBearing(LinearReaction):
 
     @property
     def is_constant(self) -> bool:
-        """Whether stiffness and damping say all; False for a subclass, which may differ."""
+        """Whether stiffness and damping determine the force; False for a subclass, which may differ."""
         return type(self) is LinearBearing
 
     def compiled(self) -> FilmCall | None:

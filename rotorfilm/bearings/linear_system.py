@@ -55,8 +55,8 @@ class FrequencyDependentReaction:
 
         x' = A x + B q,    force = C x + D q - damping q' - added_mass q''
 
-    so that K(s) + s C(s) = -D - C (s - A)^-1 B + s damping. `from_system` makes one of a python-control
-    system, `from_table` of a table over frequency, `from_isotropic` of a complex system.
+    so that K(s) + s C(s) = -D - C (s - A)^-1 B + s damping. `from_system` makes it from a python-control
+    system, `from_table` from a table over frequency, and `from_isotropic` from a complex system.
 
     Parameters
     ----------
@@ -72,11 +72,11 @@ class FrequencyDependentReaction:
         Motions of the shaft, as ("x", "y") or ("z",), in the order of `core.signals.FREEDOMS`.
     speeds : array_like, shape (k,) [rad/s]
         Rising; empty for a reaction that is the same at any speed. Between them each entry of A, B, C, D
-        follows a monotone cubic: states must mean the same at all speeds. Beyond them it refuses.
+        follows a monotone cubic: states must mean the same at all speeds. Beyond them an error is raised.
     damping : array_like, shape (n, n) [N s/m], or None
-        Of forces by rates, at all speeds.
+        Damping of forces by rates, at all speeds.
     added_mass : array_like, shape (n, n) [kg], or None
-        That a rotor takes into its own, at all speeds; symmetric.
+        Added mass, symmetric, the same at all speeds; a rotor includes it in its own mass.
     state_names : tuple of str
         Empty for state_0, state_1, ...
     band : tuple of two floats [rad/s], or None
@@ -89,11 +89,9 @@ class FrequencyDependentReaction:
     InputError
         If a shape is wrong, a number is not finite or another value breaks its rule.
 
-    Notes
-    -----
-    At rest the states are -A^-1 B q. One that integrates, as in a controller, holds the shaft where it is
-    without any force of its place: there it decays at 1e-9 of the slowest other pole, which makes the static
-    stiffness very large but finite.
+    Notes ----- At rest the states are -A^-1 B q. An integrating state, as in a controller, would make the
+    static stiffness infinite. It is given a decay rate of 1e-9 of the slowest other pole, so that the static
+    stiffness is very large but finite.
 
     Examples
     --------
@@ -225,7 +223,7 @@ class FrequencyDependentReaction:
         Parameters
         ----------
         frequencies : array_like, shape (m,) [rad/s]
-            Of whirl, positive and rising.
+            Frequencies of whirl, positive and rising.
         stiffness : array_like, shape (m, n, n) [N/m]
         damping : array_like, shape (m, n, n) [N s/m]
         mass : array_like, shape (m, n, n) [kg], optional
@@ -330,7 +328,7 @@ class FrequencyDependentReaction:
         return A @ state + B @ q
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
-        """Return the exact derivatives, that by the speed among them."""
+        """Return the exact derivatives, including that by the speed."""
         (A, B, C, D), state, q, _ = self._at(x, u)
         turned = self._system(float(np.asarray(u)[-1]), 1)
         seen = np.hstack([D, -self._damping, (turned.C @ state + turned.D @ q)[:, None]])
@@ -343,7 +341,7 @@ class FrequencyDependentReaction:
         )
 
     def native(self) -> NativeSpec | None:
-        """Return the kernel of a linear model; None of a subclass, with an added mass or tied to speeds."""
+        """Return the kernel of a linear model; None for a subclass, an added mass or several speeds."""
         if type(self) is not FrequencyDependentReaction or self._known.size or self.has_inertia:
             return None
         return linear_kernel(
@@ -360,13 +358,13 @@ class FrequencyDependentReaction:
         return HoldingStiffness(rest_linearization(self, position, speed))
 
     def force_noise(self, speed: float) -> float:
-        """Return what roundoff of a place leaves of the static force [N]: much where a state integrates."""
+        """Return the roundoff error of the static force [N], which is large where a state integrates."""
         A, B, C, D = self.leaking._system(speed)
         static = D - C @ np.linalg.solve(A, B)
         return float(np.finfo(float).eps * NOMINAL_LENGTH * np.abs(static).max(initial=0.0))
 
     def at_rest(self) -> QuasiStatic:
-        """Return the reaction without states: with those at rest under a shaft at rest."""
+        """Return the reaction with its states at their equilibrium for a shaft at rest."""
         return QuasiStatic(self.leaking)
 
     @property

@@ -45,7 +45,7 @@ class OwnReaction(StaticReaction):
     clearance : float [m]
         Radial clearance.
     name : str
-        What messages call it, and its FMU.
+        Name in messages and of its FMU.
     nominal_force : float [N]
         Typical force, for nominal values of signals.
     vectorized : bool
@@ -126,9 +126,9 @@ class OwnReaction(StaticReaction):
         return self._differences(state)[0] if self.slopes is None else self._given(self.slopes, state)
 
     def jacobian_error(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return how far `jacobian` may be off, in its units, shape (n, 2 n + 1, ...).
+        """Return the error of `jacobian`, in its units, shape (n, 2 n + 1, ...).
 
-        Of differences that is an estimate, of a given `jacobian` its distance from differences.
+        For differences this is an estimate; for a given `jacobian` it is the distance from differences.
 
         Parameters
         ----------
@@ -236,7 +236,7 @@ def as_reaction(
     freedoms: Sequence[str] = PLANAR,
     largest_angle: float = LARGEST_ANGLE,
 ) -> OwnReaction:
-    """Return a function that gives the force of a bearing as a bearing, which goes wherever a bearing goes.
+    """Return a bearing whose force is a function of yours; it is usable wherever a bearing is.
 
     Parameters
     ----------
@@ -246,20 +246,20 @@ def as_reaction(
         (z, tilt_x, vz, tilt_rate_x, speed) -> (force_z, moment_x). An FMU carries a function from the top of
         an importable module, or a frozen dataclass with `__call__`.
     clearance : float [m]
-        Radial clearance: x and y stay within it, and beyond it nobody asks for a force. It scales the steps
-        of differences, also along z.
+        Radial clearance: x and y stay within it, and the force is never evaluated beyond it. It scales the
+        steps of differences, also along z.
     name : str, optional
-        What messages call the bearing, and its FMU; that of the function by default.
+        Name in messages and of the FMU; by default that of the function.
     jacobian : callable, optional
-        (x, y, vx, vy, speed) -> 2 rows of 5 numbers, d(force_x, force_y)/d(x, y, vx, vy, speed); n rows of
-        2 n + 1 with n freedoms. By default they are differences of sixth order, 30 forces a state of a planar
-        bearing: a smooth force has them within some 1e-11 of the largest, and `OwnReaction.jacobian_error`
-        says how far they are off at a state.
+        (x, y, vx, vy, speed) -> 2 rows of 5 numbers, d(force_x, force_y)/d(x, y, vx, vy, speed); n rows of 2
+        n + 1 with n freedoms. By default they are differences of sixth order, which take 30 force evaluations
+        for each state of a planar bearing. For a smooth force their error is about 1e-11 of the largest
+        entry; `OwnReaction.jacobian_error` estimates it at a state.
     vectorized : bool
         Whether the functions take arrays of one shape, and are called once for a batch of states.
     relative_step : float [1]
-        Largest step of the differences, relative to what is left of the clearance, and to the speed and the
-        rate of motion per clearance together. A force with noise wants a larger one.
+        Largest step of the differences, relative to the remaining clearance for positions, and to the sum of
+        speed and velocity / clearance for rates. A noisy force needs a larger one.
     nominal_force : float [N], optional
         Typical force, for nominal values of signals. By default the force half a clearance from the center at
         100 rad/s; moments count as forces at the arm clearance/largest_angle.

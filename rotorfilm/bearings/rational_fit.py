@@ -82,7 +82,7 @@ def rational_fit(
     values : ndarray of complex, shape (m, n, n)
         Z(i frequency).
     scale : ndarray, shape (n,)
-        As in `RationalFit`.
+        Scale as in `RationalFit`.
     poles : int or None
     tolerance : float [1]
     powers : int

@@ -18,18 +18,18 @@ from .reaction import NOMINAL_SPEED, StaticReaction, broadcast_state, input_vect
 
 
 class RubContact(NamedTuple):
-    """A rotor in its ring.
+    """Contact of a rotor with its rub ring.
 
     Attributes
     ----------
     depth : ndarray, shape (...) [m]
-        How far it is in the ring; negative without contact.
+        Penetration into the ring; negative without contact.
     normal_force : ndarray, shape (...) [N]
-        With which the ring pushes it back, never negative.
+        Normal force of the ring on the rotor, never negative.
     friction_force : ndarray, shape (...) [N]
-        On the rotor, positive about +z.
+        Friction force on the rotor, positive about +z.
     slip : ndarray, shape (...) [m/s]
-        Velocity of its surface along the ring, positive about +z.
+        Velocity of the rotor surface along the ring, positive about +z.
     """
 
     depth: Array
@@ -41,7 +41,7 @@ class RubContact(NamedTuple):
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class RubRing(StaticReaction):
-    """A stator ring around a rotor: a Reaction that is zero within the gap.
+    """A stator ring for rubs: a Reaction whose force is zero within the gap.
 
     With the depth d = |position - ring_center| - gap > 0 and the slip s of the surface along the ring
 
@@ -53,18 +53,19 @@ class RubRing(StaticReaction):
     gap : float [m]
         Radial gap between rotor and ring.
     stiffness : float [N/m]
-        Of the contact and of what the ring is fixed to, along the depth.
+        Radial stiffness of the contact and of the support of the ring, in series.
     radius : float [m]
-        Of the rotor where it touches.
+        Radius of the rotor where it touches.
     friction_coefficient : float [1]
-        Of Coulomb, at full slip.
+        Coulomb's friction coefficient, at full slip.
     slip_velocity : float [m/s]
-        Slip at which friction has 0.71 of its full size: below it sticking is a slow creep.
+        Slip at which friction reaches 0.71 of its full value. Below it, sticking becomes a slow creep.
     dissipation : float [s/m]
-        Losses of an impact, which leaves with 1 - (2/3) dissipation * velocity of its velocity, where that is
-        near 1. The force starts from 0 at any velocity (Hunt & Crossley 1975, J. Appl. Mech. 42, 440-445).
+        Damping of impacts: the rotor rebounds with the share 1 - (2/3) dissipation * velocity of its
+        velocity, as long as that is near 1. The force starts from 0 at any velocity (Hunt & Crossley 1975, J.
+        Appl. Mech. 42, 440-445).
     ring_center : tuple of two floats [m]
-        Of the ring.
+        Center of the ring.
 
     Raises
     ------
@@ -96,7 +97,7 @@ class RubRing(StaticReaction):
 
     @property
     def nominal_force(self) -> float:
-        """Normal force a hundredth of the gap deep [N]."""
+        """Normal force at a penetration of 1 % of the gap [N]."""
         return 0.01 * self.stiffness * self.gap
 
     @property
@@ -115,7 +116,7 @@ class RubRing(StaticReaction):
         return FilmCall.of_numbers("rf_rub_at", self.numbers) if type(self) is RubRing else None
 
     def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return the depth in gaps, shape (1,): contact begins and ends where it changes sign."""
+        """Return penetration / gap, shape (1,): contact begins and ends where it changes sign."""
         values = input_vector(u)
         away = values[:2] - np.array(self.ring_center)
         return np.array([math.hypot(*away) / self.gap - 1.0])

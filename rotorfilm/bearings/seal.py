@@ -36,16 +36,16 @@ ROUNDS = 100
 class HirsFriction:
     """Friction of a fluid at a wall: stress = (1/2) density W^2 coefficient Re^exponent, Re = 2 W h/nu.
 
-    W is the mean velocity relative to that wall and h the gap, of which 2 h is the hydraulic diameter (Hirs
-    1973, J. Lubr. Technol. 95, 137-146). The default is that of Blasius for smooth walls, from a Reynolds
-    number of 3000 to 100 000. 24 and -1 are those of laminar flow.
+    W is the mean velocity relative to that wall, and 2 h is the hydraulic diameter of the gap h (Hirs 1973,
+    J. Lubr. Technol. 95, 137-146). The defaults are Blasius' values for smooth walls, for Reynolds numbers
+    from 3000 to 100 000. Laminar flow has 24 and -1.
 
     Parameters
     ----------
     coefficient : float [1]
-        Of the wall: friction factor at a Reynolds number of 1.
+        Friction factor of the wall at a Reynolds number of 1.
     exponent : float [1]
-        From -1 to 0.
+        Exponent from -1 to 0.
 
     Raises
     ------
@@ -75,7 +75,8 @@ class SealFlow(Readable):
     friction_factor : float [1]
         lambda: pressure drop along the gap = density axial_velocity^2 lambda length/clearance.
     reynolds_number : float [1]
-        2 W clearance/nu of the mean velocity W relative to either wall, half-way round.
+        2 W clearance/nu with the mean velocity W relative to either wall, for a fluid that rotates at half
+        the shaft speed.
     """
 
     axial_velocity: float
@@ -149,27 +150,28 @@ _PATTERN = np.array([[[1.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [-1.0, 0.0]]])
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class AnnularSeal(InertialModel):
-    """A plain annular liquid seal about its shaft in the middle: a Reaction with an added mass.
+    """A plain annular liquid seal around a centered shaft: a Reaction with an added mass.
 
         force = -[[K, k], [-k, K]] position - [[C, c], [-c, C]] velocity,   then - M acceleration
 
     Parameters
     ----------
     radius, length, clearance : float [m]
-        Of the gap.
+        Radius, length and clearance of the gap.
     pressure_drop : float [Pa]
-        Across the seal, inlet included; positive.
+        Pressure drop across the seal, including the inlet; positive.
     viscosity : float [Pa s]
         Dynamic viscosity.
     density : float [kg/m3]
     inlet_loss : float [1]
-        Pressure lost at the inlet, in `density V^2 / 2`; not negative. Sharp edges lose 0.1 to 0.5.
+        Loss coefficient of the inlet, relative to `density V^2 / 2`; not negative. Sharp edges have 0.1 to
+        0.5.
     inlet_swirl : float [1]
-        Velocity of the fluid round the shaft where it comes in, in radius * speed.
+        Circumferential velocity of the fluid at the inlet, relative to radius * speed.
     friction : HirsFriction
-        Of both walls.
+        Friction of both walls.
     added_mass : bool
-        Whether the fluid's mass M moves with the rotor; False leaves it out, for analyses that take none.
+        Whether the added mass M of the fluid is included. Some analyses need False.
 
     Raises
     ------
@@ -179,13 +181,13 @@ class AnnularSeal(InertialModel):
     Warns
     -----
     ValidityWarning
-        Beyond length / diameter 0.25, and where the flow at rest is outside of what Blasius measured.
+        If length / diameter exceeds 0.25, or if the flow at rest is outside the range of Blasius' friction
+        law.
 
-    Notes
-    -----
-    The closed form for short seals of Black (1969) and Childs (1983); see `short_seal` for its one addition.
-    Against the perturbed bulk flow with pressure flow round the shaft K, k, C, M are up to 5 % too large at
-    length / diameter 0.2, 25 % at 0.5. Small motion: to half of the clearance.
+    Notes ----- The closed form for short seals of Black (1969) and Childs (1983); see `short_seal` for its
+    one addition. K, k, C and M are up to 5 % too large at length / diameter 0.2 and up to 25 % at 0.5,
+    compared with a perturbed bulk flow that includes circumferential pressure flow. Motion should be smaller
+    than half of the clearance.
     """
 
     radius: float
@@ -219,12 +221,12 @@ class AnnularSeal(InertialModel):
 
     @property
     def nominal_force(self) -> float:
-        """Force at half of the clearance, at rest [N]."""
+        """Force at a displacement of half the clearance, at rest [N]."""
         return 0.5 * self.clearance * float(self.matrices(0.0).K)
 
     @property
     def has_inertia(self) -> bool:
-        """Whether the fluid's mass is part of the answer."""
+        """Whether the added mass of the fluid is included."""
         return self.added_mass
 
     @in_si
@@ -269,12 +271,12 @@ class AnnularSeal(InertialModel):
         return slopes
 
     def require_range(self, frequency: float) -> None:
-        """Warn where motion is too fast for the second order in the time that the fluid takes through.
+        """Warn where motion is too fast for the expansion to second order in the transit time of the fluid.
 
         Parameters
         ----------
         frequency : float [rad/s]
-            Of the motion: of a synchronous whirl, as the flow is taken at this speed of the shaft.
+            Frequency of a synchronous whirl, which is also the shaft speed of the flow.
         """
         stream = steady_flow(self, np.asarray(float(frequency)))
         m, loss = self.friction.exponent, float(stream.friction) * self.length / self.clearance

@@ -75,7 +75,7 @@ class Body:
     ----------
     mass : float [kg]
     inertia : float or None [kg m2]
-        About its diameters; None for a body that does not tilt.
+        Moment of inertia about a diameter; None for a body that does not tilt.
 
     Raises
     ------
@@ -97,19 +97,19 @@ class Body:
 class Series:
     """One reaction between ground and a body, and another one between the body and the shaft.
 
-    The force on the shaft is that of the inner reaction at the place of the shaft in the body, with the speed
-    of the shaft. The outer one feels the body alone, at speed 0. The body moves in what both react to; in all
-    else it stands still. Its places and rates are states, as body_x and body_vx, before those of the inner
-    and the outer reaction, as inner_tilt_1 and outer_state_0.
+    The force on the shaft is that of the inner reaction, at the position of the shaft relative to the body
+    and at the shaft speed. The outer reaction acts on the body alone, at speed 0. The body moves along the
+    freedoms of both reactions and is held otherwise. The states are the positions and velocities of the body
+    (body_x, body_vx, ...), then those of the inner and the outer reaction (inner_tilt_1, outer_state_0, ...).
 
     Parameters
     ----------
     outer : Reaction
-        Such as a damper on its springs; a mass that it adds is added to the body.
+        Outer reaction such as a damper on its springs; its added mass is added to the body.
     body : Body
-        Between both, such as the outer ring of a ball bearing.
+        The body between both, such as the outer ring of a ball bearing.
     inner : Reaction
-        Such as a ball bearing; it adds no mass.
+        Inner reaction such as a ball bearing; it must have no added mass.
 
     Raises
     ------
@@ -147,16 +147,16 @@ class Series:
 
     @property
     def clearance(self) -> float:
-        """How far the shaft may go [m]: the clearances of both."""
+        """Largest displacement of the shaft [m]: the sum of both clearances."""
         return clearance_of(self.inner) + clearance_of(self.outer)
 
     @property
     def carries_load(self) -> bool:
-        """Whether both are bearings."""
+        """Whether both reactions are bearings, not seals."""
         return carries_load(self.inner) and carries_load(self.outer)
 
     def force_noise(self, speed: float) -> float:
-        """Return what roundoff may leave of the forces of both [N]."""
+        """Return the roundoff error of both forces [N]."""
         return force_noise(self.inner, speed) + force_noise(self.outer, 0.0)
 
     @property
@@ -181,7 +181,7 @@ class Series:
 
     @property
     def initial_state(self) -> Array:
-        """The body at rest in the center, and both reactions as they begin."""
+        """The body at rest in the center, and the initial states of both reactions."""
         parts: Any = [part for part in (self.inner, self.outer) if part.states]
         return np.concatenate([np.zeros(2 * len(self._shared)), *(part.initial_state for part in parts)])
 
@@ -216,7 +216,7 @@ class Series:
         )
 
     def rest_state(self, position: ArrayLike, speed: float) -> Array:
-        """Return the states that rest with the shaft at a place (n,).
+        """Return the equilibrium states for a shaft at rest at a position (n,).
 
         Raises
         ------
@@ -238,16 +238,16 @@ class Series:
         return self if held else replace(self, outer=outer, inner=inner)
 
     def at_rest(self) -> AssemblyAtRest:
-        """Return the reaction without states: with those at rest under a shaft at rest."""
+        """Return the reaction with its states at their equilibrium for a shaft at rest."""
         return AssemblyAtRest(self.leaking)
 
     def parts_at_rest(self, position: Array, speed: float) -> list[PartAtRest]:
-        """Return both reactions under a shaft at rest at a place (n,)."""
+        """Return both reactions for a shaft at rest at a position (n,)."""
         inner, outer = self._apart(position, self._resting_body(position, speed))
         return [PartAtRest(self.inner, inner, speed), PartAtRest(self.outer, outer, 0.0)]
 
     def rest_place(self, load: Sequence[float], speed: float) -> Array | None:
-        """Return about where the shaft rests: where the inner reaction says, on the outer one as springs."""
+        """Return a first guess of the equilibrium: the inner reaction on the outer one as springs."""
         push = np.array(load)
         place = told_place(self.inner, push, speed)
         if place is None:
@@ -259,12 +259,12 @@ class Series:
         return reached_place(self, place, speed)
 
     def require_range(self, frequency: float) -> None:
-        """Warn, or raise InputError, where the model of one of both ends, for motion at [rad/s].
+        """Warn or raise InputError if one of the models is not valid for motion at a frequency [rad/s].
 
         Parameters
         ----------
         frequency : float [rad/s]
-            Of the motion.
+            Frequency of the motion.
         """
         require_range(self.inner, frequency)
         require_range(self.outer, frequency)
@@ -366,7 +366,7 @@ class Series:
         felt : ndarray, shape (2 m + 1,)
             Input of the outer reaction.
         slopes : ndarray, shape (k, 2 m + 1)
-            Of the mass of the body times its acceleration by that, with the acceleration held.
+            Slopes of the mass of the body times its acceleration by that, with the acceleration held.
         """
         n, m, k = len(self.freedoms), len(felt) // 2, len(self._shared)
         size, (own, other) = 2 * k + len(inner.A) + len(outer.A), self._rows

@@ -39,11 +39,11 @@ def new_grid(
     Parameters
     ----------
     count, columns : int
-        Of all, and in a row.
+        Count and columns of all, and in a row.
     size : (float, float) [inch]
-        Of one of them.
+        Size of one of them.
     title : str
-        Of the figure.
+        Title of the figure.
     more : float [inch]
         Height beside that of the Axes.
     """

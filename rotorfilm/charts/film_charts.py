@@ -166,7 +166,7 @@ def plot_damper_run(time: np.ndarray, eccentricity_ratio: np.ndarray, force: np.
     time : ndarray, shape (n,) [s]
     eccentricity_ratio : ndarray, shape (n,) [1]
     force : ndarray, shape (n,) [N]
-        On the housing.
+        Force on the housing.
     """
     marks: list[Mark] = [
         CurveMark(time, eccentricity_ratio, "eccentricity ratio", "C0", width=1.3),

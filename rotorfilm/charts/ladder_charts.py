@@ -39,7 +39,7 @@ class StudyPanel(NamedTuple):
     crossed : bool
         Whether runs without an error are drawn as crosses at the top.
     scale : str
-        Of the second axis; that of the first is logarithmic.
+        Scale of the second axis; that of the first is logarithmic.
     """
 
     x: str
@@ -80,7 +80,7 @@ class StudyStyle:
     columns : int
         Panels in a row.
     size : (float, float) [inch]
-        Of a panel.
+        Size of a panel.
     """
 
     title: str

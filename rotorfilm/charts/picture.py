@@ -36,7 +36,7 @@ class ColorScale(NamedTuple):
     Attributes
     ----------
     label : str
-        With the unit.
+        Label with the unit.
     colors : str
         Name of a color map that both backends know.
     low, high : float, optional
@@ -57,19 +57,19 @@ class CurveMark(NamedTuple):
     x, y : array_like, shape (n,)
         A line breaks at nan.
     label : str
-        In the legend; empty for none.
+        Label in the legend; empty for none.
     color : str
-        As matplotlib names it.
+        Color as matplotlib names it.
     dash : str
         "-", "--", ":", "-." or empty for no line.
     width : float
-        Of the line [points].
+        Width of the line [points].
     marker : str
         "o", "s", "^", "v", "x", "D", "+", "*" or empty.
     filled : bool
         Whether the marks are.
     size : float
-        Of the marks [points].
+        Size of the marks [points].
     z : array_like, optional
         Third coordinate, of a panel with three axes.
     values : array_like, optional
@@ -106,7 +106,7 @@ class FieldMark(NamedTuple):
     values : array_like, shape (m, n)
     scale : ColorScale
     contour : array_like, shape (m, n), optional
-        Whose line is drawn.
+        Contour whose line is drawn.
     level : float
         On that line.
     line : str
@@ -132,9 +132,9 @@ class BarsMark(NamedTuple):
     tops : array_like, shape (n,)
         Ends of the bars.
     label, color : str
-        As in `CurveMark`.
+        Label and color as in `CurveMark`.
     width : float
-        In the unit of the places.
+        Width in the unit of the places.
     base : float
         Where all bars begin.
     across : bool
@@ -158,7 +158,7 @@ class LevelMark(NamedTuple):
     at : float
         Value of y, or of x where it is upright.
     label, color, dash : str
-        As in `CurveMark`.
+        Label, color and dash as in `CurveMark`.
     upright : bool
         Whether the line is at a value of x.
     to : float, optional
@@ -198,7 +198,7 @@ class PicturePanel(NamedTuple):
     Attributes
     ----------
     marks : sequence of Mark
-        From the back to the front.
+        Marks from the back to the front.
     x, y, z, right : str
         Labels with units; `right` that of a second vertical axis.
     title : str
@@ -240,7 +240,7 @@ class Picture(NamedTuple):
     columns : int
         Panels in a row.
     size : (float, float) [inch]
-        Of a panel.
+        Size of a panel.
     title : str
     """
 

@@ -134,7 +134,7 @@ def plot_map(
     x, y : array_like, shape (n,), (m,)
     values : array_like, shape (m, n)
     labels : (str, str, str)
-        Of x, y and the values, with units.
+        Labels of x, y and the values, with units.
     level : float, optional
         Whose line is drawn, as 0 of a log decrement or a growth rate, the border of stability.
 

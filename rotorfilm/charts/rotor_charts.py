@@ -126,7 +126,7 @@ def plot_critical_speed_map(stiffness: Array, speeds: Array, *, bearing: Array |
     ----------
     stiffness : ndarray, shape (n,) [N/m]
     speeds : ndarray, shape (count, n) [rad/s]
-        As `critical_speed_map` returns them.
+        Speeds as `critical_speed_map` returns them.
     bearing : ndarray, shape (2, m), optional
         Speed [rad/s] and stiffness [N/m] of the bearing that the rotor will have.
     """
@@ -151,7 +151,7 @@ def plot_unbalance_response(
     Parameters
     ----------
     response : control.FrequencyResponseData
-        As `unbalance_response` or `tracked_response` returns it.
+        Response as `unbalance_response` or `tracked_response` returns it.
     outputs : sequence of str, optional
         Names of displacements; all of the response by default.
     peak_to_peak : bool
@@ -192,7 +192,7 @@ def plot_polar_response(
     Parameters
     ----------
     response : control.FrequencyResponseData
-        As `unbalance_response` or `tracked_response` returns it.
+        Response as `unbalance_response` or `tracked_response` returns it.
     outputs : sequence of str, optional
         Names of displacements; all of the response by default.
     """
@@ -322,7 +322,7 @@ def plot_orbit_curves(
     Parameters
     ----------
     curves : mapping of str to OrbitCurve
-        By label.
+        Curves by label.
     scale : float
         Unit of the parameter.
     parameter : str

@@ -145,7 +145,7 @@ def plot_time_windows(run: Trajectory, starts: Sequence[float] = (), station: st
     ----------
     run : Trajectory
     starts : sequence of float [s]
-        Of the windows; at the beginning, in the middle and at the end by default.
+        Starts of the windows; at the beginning, in the middle and at the end by default.
     station : str
         The first by default.
     """

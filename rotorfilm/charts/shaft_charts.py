@@ -38,7 +38,7 @@ def plot_rotor(rotor: ShaftRotor, bearings: Mapping[str, object] | None = None) 
     ----------
     rotor : ShaftRotor
     bearings : mapping of str to Reaction, optional
-        By station; seals, by the name of their class, are drawn as combs and not as triangles.
+        Bearings by station; seals, by the name of their class, are drawn as combs and not as triangles.
     """
     z, radii = 1e3 * rotor.positions, _radii(rotor)
     tall = max(radii)
@@ -177,7 +177,7 @@ def plot_mode_shape(rotor: ShaftRotor, modes: RotorModes, number: int) -> Pictur
     ----------
     rotor : ShaftRotor
     modes : RotorModes
-        Of this rotor.
+        Modes of this rotor.
     number : int
         Place of the mode in `modes`, from 0.
 

@@ -29,7 +29,7 @@ def plot_bearing_thresholds(result: StudyResult, *, axes: Axes | None = None) ->
     Parameters
     ----------
     result : StudyResult
-        As `bearing_thresholds` returns it.
+        Result as `bearing_thresholds` returns it.
     axes : Axes, optional
         Where to draw; a new figure by default.
     """
@@ -93,7 +93,7 @@ def plot_limits(atlas: StudyResult) -> dict[str, list[Axes]]:
     Parameters
     ----------
     atlas : StudyResult
-        As `limits_atlas` returns it.
+        Atlas as `limits_atlas` returns it.
 
     Returns
     -------
@@ -134,7 +134,7 @@ def plot_limit_summary(atlas: StudyResult) -> list[Axes]:
     Parameters
     ----------
     atlas : StudyResult
-        As `limits_atlas` returns it.
+        Atlas as `limits_atlas` returns it.
 
     Returns
     -------
@@ -169,7 +169,7 @@ def plot_coupling_limits(result: StudyResult) -> list[Axes]:
     Parameters
     ----------
     result : StudyResult
-        As `coupling_limits` returns it.
+        Result as `coupling_limits` returns it.
     """
     shown = new_grid(2, columns=2, size=(5.5, 4.8))
     limit = "critical_macro_angle [deg]"

@@ -56,7 +56,7 @@ def plot_journal_stability(result: StudyResult, *, point: tuple[float, float] | 
     Parameters
     ----------
     result : StudyResult
-        As `journal_stability` returns it.
+        Result as `journal_stability` returns it.
     point : (float, float), optional
         Eccentricity ratio and speed parameter of a working point.
     """
@@ -83,7 +83,7 @@ def plot_thresholds(
     Parameters
     ----------
     result : StudyResult
-        As `journal_stability` returns it.
+        Result as `journal_stability` returns it.
     point : (float, float), optional
         Eccentricity ratio and speed parameter of a working point.
     axes : Axes, optional

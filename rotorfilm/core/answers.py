@@ -90,7 +90,7 @@ class RungResult(NamedTuple):
     Attributes
     ----------
     value : float or ndarray
-        In SI.
+        Value in SI.
     work : mapping of WorkUnit to int
     solution : object
         What the rung's own error estimate starts from.
@@ -107,7 +107,7 @@ class ErrorEstimate(NamedTuple):
     Attributes
     ----------
     error : float [1]
-        In the unit of the tolerance.
+        Error in the unit of the tolerance.
     method : str
     work : mapping of WorkUnit to int
     bound : bool
@@ -156,11 +156,11 @@ class RungReport(Readable):
     doubtful : bool
         Whether the estimate contradicts itself.
     method : str
-        Of the estimate.
+        Method of the estimate.
     cost, estimate_cost : float or None [s]
-        Of the answer and of the estimate; work times the cost of its units.
+        Cost and estimate cost of the answer and of the estimate; work times the cost of its units.
     work : dict of str to int
-        Of the answer, by the names of its units.
+        Work of the answer, by the names of its units.
     shared_error : float [1]
         Part of the estimate that other rungs share.
     """
@@ -187,20 +187,20 @@ class QuestionAnswer(Drawable):
     ----------
     quantity : str
     value : float or ndarray
-        In SI.
+        Value in SI.
     unit : str
-        Of the value.
+        Unit of the value.
     error_estimate : float [1]
-        In the unit of the tolerance.
+        Error estimate in the unit of the tolerance.
     tolerance : float [1]
     met : bool
         Whether the estimate, with its margin, is below the tolerance.
     model : str
         The rung that answered; where none meets the tolerance, the one with the smallest estimate.
     cost, estimate_cost : float [s]
-        Of its answer and of its estimate.
+        Cost and estimate cost of its answer and of its estimate.
     total_cost : float [s]
-        Of all that was tried.
+        Total cost of all that was tried.
     next_model : str or None
         The rung above it.
     next_cost : float or None [s]
@@ -362,7 +362,7 @@ class Ladder:
     units : mapping of WorkUnit to callable
         Calls that do one unit of work; work without one is timed while it is done.
     unit : str
-        Of the value.
+        Unit of the value.
     remarks : tuple of str
         What the physics of all rungs leaves out and should not.
     within : str

@@ -34,7 +34,7 @@ class InputError(RotorfilmError, ValueError):
 
 
 class UnknownArgumentError(InputError, TypeError):
-    """A name is no argument of what is called; the message says which one may be meant."""
+    """An argument has an unknown name; the message suggests a similar name."""
 
 
 class SceneError(RotorfilmError, ValueError):
@@ -54,19 +54,19 @@ class EquilibriumError(RotorfilmError):
 
 
 class AbsentError(RotorfilmError):
-    """What is asked for does not exist, as the jump of a rotor that has one orbit at every unbalance."""
+    """The requested quantity does not exist, such as a jump of a rotor that has one orbit everywhere."""
 
 
 class FmuError(RotorfilmError):
-    """A model cannot be exported, or an FMU answered with an error status."""
+    """A model cannot be exported, or an FMU returned an error status."""
 
 
 class FmuFileError(FmuError, InputError):
-    """A file is no FMU of a version that can be read, or is not there."""
+    """A file is missing, or is not an FMU of a supported version."""
 
 
 class PartialResultError(RotorfilmError):
-    """A simulation went wrong; what it had computed until then is kept.
+    """A simulation failed; the result up to the failure is kept.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ class ConvergenceError(PartialResultError):
 
 
 class CouplingError(PartialResultError):
-    """A co-simulation is past its stability limit, so its result is not an answer."""
+    """A co-simulation is beyond its stability limit, so its result is not valid."""
 
 
 class ContactError(PartialResultError, FilmContactError):
@@ -94,7 +94,7 @@ class ContactError(PartialResultError, FilmContactError):
 
 
 class FmuRunError(PartialResultError, FmuError):
-    """An FMU answered with an error status, or something not finite, in a co-simulation."""
+    """An FMU returned an error status or a value that is not finite in a co-simulation."""
 
 
 class ValidityWarning(UserWarning):
@@ -102,15 +102,15 @@ class ValidityWarning(UserWarning):
 
 
 class UnloadedPadWarning(ValidityWarning):
-    """A tilting pad has no film and no unique tilt, as those opposite to a load often have not."""
+    """A tilting pad has no film and no unique tilt; this is common for pads opposite to the load."""
 
 
 class FileWarning(RuntimeWarning):
-    """A file of ours is damaged or cannot be written, so that work is done again or may be lost."""
+    """A file of rotorfilm is damaged or cannot be written: work is repeated or may be lost."""
 
 
 class CouplingWarning(ValidityWarning):
-    """A co-simulation is near its stability limit, or past it."""
+    """A co-simulation is near or beyond its stability limit."""
 
 
 def require_positive(name: str, value: float) -> None:

@@ -147,7 +147,7 @@ def read_sealed(path: str | os.PathLike[str], settings: str, rule: str) -> bytes
     ----------
     path : path
     settings : str
-        As written.
+        Settings as written.
     rule : str
         What the message says where the file is whole but belongs to other settings.
 

@@ -105,7 +105,7 @@ class Column(NamedTuple):
     ----------
     name : str
     unit : str
-        Of the values; empty for words.
+        Unit of the values; empty for words.
     values : ndarray or sequence
         Real numbers or words, one a row.
     heading : str

@@ -208,7 +208,7 @@ def quantity(name: str, value: Any, unit: str, *, absolute: bool = False) -> Any
         For the messages.
     value : object
     unit : str
-        As docstrings spell it, with spaces.
+        Unit as docstrings spell it, with spaces.
     absolute : bool
         Whether it is a temperature, in K or degC, and no difference.
 

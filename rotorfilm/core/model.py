@@ -42,7 +42,7 @@ def static_linearization(feedthrough: Array) -> Linearization:
 
 @runtime_checkable
 class Model(Protocol):
-    """Anything that turns inputs into outputs; without states it is a static map."""
+    """A model with inputs and outputs; without states it is a static map."""
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
@@ -82,12 +82,12 @@ class Dynamic(Model, Protocol):
         """The state at t = 0, shape (n_states,)."""
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return dx/dt, shape (n_states,), of the arguments of `output`."""
+        """Return dx/dt, shape (n_states,); the arguments are those of `output`."""
 
 
 @runtime_checkable
 class Switched(Protocol):
-    """What a Dynamic may add, if clamps or contacts make it smooth only piece by piece."""
+    """Further method of a Dynamic model that is only piecewise smooth, because of clamps or contacts."""
 
     def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the switching functions, shape (n_events,): the model is smooth while none changes sign.
@@ -100,7 +100,7 @@ class Switched(Protocol):
 class Stepped(Protocol):
     """A model with a time integrator of its own; it exports to Co-Simulation only.
 
-    Its outputs belong to its state, not to the present inputs: these act in the next step.
+    Its outputs follow from its state, not from the present inputs, which act in the next step.
     """
 
     @property
@@ -112,17 +112,17 @@ class Stepped(Protocol):
         """The output signals, in the order of y."""
 
     def start(self, u: ArrayLike) -> Any:
-        """Return the state that is stationary under the input u; the state copies by copy.deepcopy."""
+        """Return the steady state for the input u; copy.deepcopy must be able to copy it."""
 
     def step(self, state: Any, t: float, u: ArrayLike, dt: float) -> tuple[Any, Array, Any]:
         """Advance from t by dt under u; return the new state, the output and a report.
 
-        Where it raises, the old state is still good.
+        If it raises an error, the old state is still valid.
 
         Parameters
         ----------
         state : object
-            As `start` or an earlier step returned it.
+            State as `start` or an earlier step returned it.
         t : float [s]
             Time at the start of the step.
         u : array_like, shape (n_inputs,)

@@ -32,24 +32,27 @@ Complex = NDArray[np.complex128]
 
 @runtime_checkable
 class Reaction(Model, Protocol):
-    """A Model that pushes back on a shaft: a film, a bearing, a seal, a ring that is rubbed.
+    """A Model that exerts a force on a shaft: a film, a bearing, a seal, a rub ring.
 
     With the freedoms (x, y) its inputs begin with x, y, vx, vy, speed and its outputs with force_x, force_y;
-    `core.signals.FREEDOMS` has the names of all others. With states it is a `Dynamic` too. What it may add:
+    `core.signals.FREEDOMS` has the names of all others. With states it is a `Dynamic` too. Optional members
+    are:
 
     - `freedoms`, which motions of the shaft it reacts to; ("x", "y") where it does not say;
-    - `clearance`, the radius [m] of the circle within which the journal stays; else there is no such circle;
+    - `clearance`, the radius [m] of the circle within which the journal stays; without it there is no such
+      circle;
     - `force(position, velocity, speed)` and `jacobian(...)`, the same as `output` and `linearization` for
-      batches, shapes (n, ...) and (n, 2 n + 1, ...); of a reaction with states, with these held;
+      batches, shapes (n, ...) and (n, 2 n + 1, ...); a reaction with states holds them;
     - `prepare()` and `prepare_tangent()`, force and derivatives as functions of five numbers, for loops;
     - `compiled()`, the force in the C library with its added mass, a `native.film_call.FilmCall`, or None;
     - `is_constant`, whether it is springs and dampers, the same at any place, motion and speed;
-    - `minimum_film(position)`, where the journal touches elsewhere than on the circle of the clearance;
-    - `largest_eccentricity_ratio`, how far from the center its force is meant, 1 up to the wall;
-    - `force_noise(speed)`: the force [N] that roundoff may leave, as of balls or pads;
-    - `rest_place(load, speed)`, where the journal rests under a load, None if not found;
-    - `rest_state(position, speed)`, the states that rest there; else Newton's method looks for them;
-    - `from_rest(position, speed, temperature)`, this reaction with initial states as at rest there;
+    - `minimum_film(position)`, if contact is not on the circle of the clearance;
+    - `largest_eccentricity_ratio`, up to which its force is valid, 1 for up to the wall;
+    - `force_noise(speed)`: the roundoff error of the force [N], for example of balls or pads;
+    - `rest_place(load, speed)`, the equilibrium position under a load, None if not found;
+    - `rest_state(position, speed)`, the equilibrium states there; without it Newton's method finds them;
+    - `from_rest(position, speed, temperature)`, this reaction with the initial states of an equilibrium
+      there;
     - `at_rest()`, a reaction without states: this one with its states at rest under a shaft at rest; by
       `completed(found)` that may return an `Equilibrium` with what it knows besides, as loads of pads;
     - `rest_linearization(position, speed)`, the exact derivatives about that rest;
@@ -85,7 +88,7 @@ class PlanarReaction(Reaction, Protocol):
         position : array_like, shape (2, ...) [m]
             Journal center from the bearing center.
         velocity : array_like, shape (2, ...) [m/s]
-            Of the journal center.
+            Velocity of the journal center.
         speed : array_like, shape (...) [rad/s]
             Angular speed about +z, either sign.
         """
@@ -122,7 +125,7 @@ def require_reaction(
     Parameters
     ----------
     name : str
-        Of the argument.
+        Name of the argument.
     value : object
     heavy : bool
         Whether it may add mass to the rotor.
@@ -392,7 +395,7 @@ def force_along(
     Parameters
     ----------
     reaction : Reaction
-        Without states.
+        Reaction without states.
     position, velocity, acceleration : ndarray, shape (n, ...) [m], [m/s], [m/s2]
     speed : array_like, shape (...) [rad/s]
     """
@@ -418,7 +421,7 @@ def orbit_mass(reaction: Any, position: Array, velocity: Array, speed: float) ->
     ----------
     reaction : Reaction
     position, velocity : ndarray, shape (2, ...) [m], [m/s]
-        On circular orbits.
+        Position and velocity on circular orbits.
     speed : float [rad/s]
     """
     heavy = inertial(reaction)
@@ -459,7 +462,7 @@ def require_turning(reaction: Any, rotor: Any) -> None:
     ----------
     reaction : Reaction
     rotor : Model
-        Whose output "speed" says by its nominal value how fast it turns.
+        Rotor whose output "speed" says by its nominal value how fast it turns.
     """
     heavy = inertial(reaction)
     if heavy is not None:
@@ -679,7 +682,7 @@ class QuasiStatic:
     Parameters
     ----------
     reaction : Reaction
-        With states that rest.
+        Reaction with states that rest.
     """
 
     reaction: Any
@@ -812,7 +815,7 @@ class InertialStiffness:
     Parameters
     ----------
     motion : DynamicStiffness
-        Without that mass.
+        Motion without that mass.
     mass : ndarray, shape (n, n) [kg]
     """
 

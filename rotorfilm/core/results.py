@@ -52,16 +52,35 @@ class BearingLosses(Readable):
 
 
 def by_freedom(items: Iterable[Item], freedoms: Sequence[str]) -> Iterator[Item]:
-    """Yield items, those of other motions than x and y entry by entry, each with its unit."""
+    """Yield items, those of other motions than x and y entry by entry, each with its unit.
+
+    An entry of a matrix that is round-off beside its diagonal is 0; what only x and y have is left out
+    without them.
+    """
     for item in items:
+        if item.name in _PLANAR_ONLY and not {*PLANAR} <= {*freedoms}:
+            continue
         units = _UNITS.get(item.name)
         if units is None or tuple(freedoms) == PLANAR:
             yield item
             continue
-        for place in np.ndindex(np.shape(item.value)):
+        value = _without_noise(np.asarray(item.value))
+        for place in np.ndindex(value.shape):
             named = [freedoms[k] for k in place]
             unit = units[tuple(FREEDOMS[name].turns for name in named)]
-            yield Item("_".join([item.name, *named]), np.asarray(item.value)[place].item(), unit, ())
+            yield Item("_".join([item.name, *named]), value[place].item(), unit, ())
+
+
+def _without_noise(value: Array) -> Array:
+    """Return a matrix with 0 where an entry is round-off beside its diagonal; a vector as it is."""
+    if value.ndim != 2:
+        return value
+    sizes = np.sqrt(np.abs(np.diag(value)))
+    return np.where(np.abs(value) < NOISE * np.outer(sizes, sizes), 0.0, value)
+
+
+NOISE, _PLANAR_ONLY = 1e-12, frozenset({"eccentricity_ratio", "attitude_angle"})
+"""Share of the diagonal that is round-off in a printed matrix, and what is said with x and y alone."""
 
 
 _UNITS: Mapping[str, Mapping[Any, str]] = {
@@ -94,7 +113,7 @@ class Equilibrium(InFreedoms):
     Attributes
     ----------
     position : ndarray, shape (2,) [m]
-        Journal center from the bearing center; with other freedoms the place in these, shape (n,).
+        Journal center from the bearing center; with other freedoms the position along these, shape (n,).
     speed : float [rad/s]
         Angular speed about +z.
     load : ndarray, shape (2,) [N]
@@ -108,11 +127,11 @@ class Equilibrium(InFreedoms):
     residual : float [1]
         |film force + load| / |load|.
     iterations : int
-        Newton steps taken; 0 where balls, which find their rest themselves, left none to take.
+        Newton steps taken; 0 for ball bearings that find their equilibrium themselves.
     temperature : float or None [K]
-        Of the film, where it follows from the balance of its heat.
+        Temperature of the film, if the heat balance determines it.
     reaction : object, optional
-        What was solved for, kept only to tell its `losses`.
+        The reaction that was solved for, kept for its `losses`.
     """
 
     position: Array
@@ -131,11 +150,11 @@ class Equilibrium(InFreedoms):
 
     @property
     def freedoms(self) -> tuple[str, ...]:
-        """The motions of the shaft that the place is of."""
+        """Motions of the shaft to which the position belongs."""
         return tuple(getattr(vars(self)["_reaction"], "freedoms", PLANAR))
 
     def to_rows(self) -> list[Row]:
-        """Return names and values with their units; of a film that warms also its power; never warns."""
+        """Return names and values with their units, with the power loss after a heat balance; never warns."""
         rows = super().to_rows()
         with warnings.catch_warnings(action="ignore"), suppress(RotorfilmError):
             if self.temperature is not None and self.losses is not None:
@@ -166,7 +185,7 @@ class Coefficients(InFreedoms):
     position : ndarray, shape (2,) [m]
     speed : float [rad/s]
     freedoms : tuple of str
-        The motions of the shaft that rows and columns are of.
+        Motions of the shaft to which rows and columns belong.
     """
 
     stiffness: Array
@@ -181,7 +200,7 @@ class Coefficients(InFreedoms):
 
 @dataclass(frozen=True, kw_only=True)
 class InertialCoefficients(Coefficients):
-    """K, C and the added mass M of a film whose oil has inertia: F = -K q - C v - M a for small motion.
+    """K, C and the added mass M of a film with fluid inertia: F = -K q - C v - M a for small motion.
 
     Attributes
     ----------
@@ -199,17 +218,17 @@ def added_mass(film: Coefficients) -> Array:
 
 @dataclass(frozen=True, kw_only=True)
 class ReducedCoefficients(Coefficients):
-    """Stiffness and damping at one frequency, of what follows the journal: pads that tilt, oil in a cavity.
+    """Stiffness and damping at one frequency, reduced to the journal: tilting pads or cavities follow it.
 
-    The force on a journal that moves as exp(s t), s = growth_rate + i frequency, is -(K + s C) q. At another
-    frequency K and C are others.
+    The force on a journal that moves as exp(s t), s = growth_rate + i frequency, is -(K + s C) q. K and C
+    depend on the frequency.
 
     Attributes
     ----------
     frequency : float [rad/s]
-        At which the journal whirls; `speed` for synchronous coefficients, 0 for those of slow motion.
+        Frequency of the whirl: `speed` for synchronous coefficients, 0 for slow motion.
     growth_rate : float [1/s]
-        Of the motion; 0 for a steady one.
+        Growth rate of the motion; 0 for a steady one.
     """
 
     frequency: float
@@ -218,15 +237,15 @@ class ReducedCoefficients(Coefficients):
 
 @dataclass(frozen=True, kw_only=True)
 class FrequencyDependentCoefficients(ReducedCoefficients):
-    """Stiffness and damping at one frequency of a frequency-dependent film, which knows them at every other.
+    """Stiffness and damping of a frequency-dependent film at one frequency, with access to all others.
 
-    Modes, thresholds and critical masses take K(s) at the exponent of each motion from it, not the one pair
-    of matrices that it shows.
+    Modes, thresholds and critical masses use its K(s) at the exponent of each motion, not the one pair of
+    matrices that it prints.
 
     Attributes
     ----------
     motion : object, optional
-        The `DynamicStiffness` of the film, kept to be called.
+        The `DynamicStiffness` of the film.
     """
 
     motion: InitVar[Any] = None
@@ -266,7 +285,7 @@ class WhirlThreshold(Readable):
     Attributes
     ----------
     speed : float or None [rad/s]
-        Angular speed at onset; None when no threshold exists in the range asked for.
+        Angular speed at onset; None if there is no threshold in the range.
     whirl_ratio : float or None [1]
         Whirl frequency / speed at onset.
     critical_mass : float or None [kg]
@@ -276,7 +295,7 @@ class WhirlThreshold(Readable):
     equilibrium : Equilibrium or None
         Static equilibrium at onset.
     reason : str
-        Empty, or why there is no threshold.
+        Why there is no threshold; empty if there is one.
     """
 
     speed: float | None
@@ -307,7 +326,8 @@ class Trajectory(Drawable):
     units : dict of str to str
         SI unit of each signal, where it is known.
     step_error : float or None [1]
-        Of a run on mass-conserving films: the local errors of its steps, added up over the clearance.
+        Step error of a run on mass-conserving films: the sum of the local errors of its steps, relative to
+        the clearance.
     """
 
     time: Array
@@ -370,7 +390,8 @@ class CircularOrbit(Readable):
     speed : float [rad/s]
         Angular speed of rotor and orbit about +z.
     phase : float [rad]
-        Angle from the unbalance to the displacement in the sense of rotation; negative when it lags.
+        Angle from the unbalance to the displacement in the sense of rotation; negative if the displacement
+        lags.
     transmissibility : float [1]
         Force on the housing / centrifugal force of the unbalance.
     growth_rate : float [1/s]

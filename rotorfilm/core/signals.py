@@ -22,7 +22,7 @@ class Freedom(NamedTuple):
     turns : bool
         Whether the place is an angle [rad] and the force a moment [N m].
     way : str
-        As "along x" or "about +x".
+        Way as "along x" or "about +x".
     """
 
     rate: str
@@ -117,9 +117,9 @@ class Signal(Scalar):
     nominal : float
         Positive typical magnitude [unit]; scales difference steps, tolerances and FMI nominal values.
     description : str
-        As of a `Scalar`.
+        Description as for a `Scalar`.
     minimum, maximum : float
-        As of a `Scalar`.
+        Minimum and maximum as for a `Scalar`.
 
     Raises
     ------
@@ -147,22 +147,22 @@ class Variable(Scalar):
     name : str
         Structured name, `component.signal`; states are `component.state_signal`.
     unit : str or None
-        As of a `Scalar`.
+        Unit as for a `Scalar`.
     nominal : float or None
-        As of a `Scalar`.
+        Nominal as for a `Scalar`.
     description : str
-        As of a `Scalar`.
+        Description as for a `Scalar`.
     minimum, maximum : float
-        As of a `Scalar`.
+        Minimum and maximum as for a `Scalar`.
     causality : str
         "input", "output", "local" (a state, its derivative, an event indicator), "parameter" or
         "independent" (the time), as FMI spells them.
     start : float or None
         Start value [unit]; of a state, the initial state. None for what is calculated.
     tunable : bool
-        Of a parameter: whether it may be set between steps.
+        Tunable of a parameter: whether it may be set between steps.
     state : int or None
-        Of the derivative of a state, the index of the state in the list.
+        State of the derivative of a state, the index of the state in the list.
     switch : bool
         Whether it is the value of a switching function, an event indicator.
     """

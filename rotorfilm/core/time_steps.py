@@ -16,7 +16,7 @@ def cubic(begin: Any, end: Any, first: Any, last: Any, share: Any) -> tuple[Any,
     Parameters
     ----------
     begin, end : float or ndarray
-        At both ends.
+        Begin and end at both ends.
     first, last : float or ndarray
         Derivatives by the share there: rates times the length of the step.
     share : float or ndarray

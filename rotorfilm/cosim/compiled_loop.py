@@ -54,17 +54,17 @@ class CompiledRun:
     Parameters
     ----------
     partners : Partners
-        That were started.
+        Partners that were started.
     rotor : CompiledPartner
     films : list of CompiledPartner
-        In the order of the stations.
+        Films in the order of the stations.
     plan : mapping of str to int
         The scheme; see `plan_of`.
     record : Record
     watch : Watch
     macro_step : float [s]
     points : ndarray [s]
-        Of the macro steps.
+        Points of the macro steps.
     """
 
     def __init__(

@@ -77,9 +77,9 @@ class CouplingCase:
     Parameters
     ----------
     rotor : RigidRotor
-        At constant speed.
+        Rotor at constant speed.
     reaction : PlanarReaction
-        Without states.
+        Reaction without states.
     revolutions : float [1]
         Length of a run.
     film : str
@@ -315,7 +315,7 @@ class Drift(NamedTuple):
     doubt : str
         Why not to trust it, or empty.
     states : int
-        Of the film that were evaluated, in batches.
+        States of the film that were evaluated, in batches.
     """
 
     error: float
@@ -334,11 +334,11 @@ def inner_motion(
     Parameters
     ----------
     rotor : RigidRotor
-        At constant speed.
+        Rotor at constant speed.
     laws : sequence of ForceLaw, length n
         Each starts at its communication point.
     position, velocity : ndarray, shape (2, n) [m], [m/s]
-        At the starts.
+        Position and velocity at the starts.
     time : ndarray, shape (n + 1,) [s]
         Communication points.
     """

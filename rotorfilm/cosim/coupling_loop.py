@@ -274,7 +274,7 @@ def coupling_stability(
     scheme: Scheme | None = None,
     time: float = 0.0,
 ) -> CouplingStability:
-    """Return the growth per macro step of a coupling, to first order.
+    """Return the growth of a coupling per macro step (spectral radius), by linearization.
 
     Parameters
     ----------
@@ -285,9 +285,9 @@ def coupling_stability(
         State of the rotor, for instance at the static equilibrium.
     macro_step : float [s]
     scheme : Scheme, optional
-        With macro steps of one length; by default `GaussSeidel()`, which holds the force.
+        Scheme with macro steps of one length; by default `GaussSeidel()`, which holds the force.
     time : float [s]
-        Where the rotor changes with time.
+        Time of the linearization, if the rotor depends on time.
 
     Raises
     ------

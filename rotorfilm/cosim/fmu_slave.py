@@ -32,7 +32,7 @@ class FmuSlave(Slave):
     ----------
     description : fmpy.model_description.ModelDescription
     folder : str
-        Where the FMU was extracted.
+        Folder where the FMU was extracted.
     exchange : bool
         Whether to instantiate it for Model Exchange.
     """

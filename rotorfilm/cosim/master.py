@@ -98,11 +98,11 @@ class CoSimulation(Drawable):
     macro_step : float [s]
     scheme : Scheme
     coupling : CouplingReport
-        Whether the coupling can be believed, by the forces exchanged.
+        Whether the result is reliable, judged from the exchanged forces.
     watch : CouplingWatch
-        How far the coupling was from its limit, and its local error.
+        Distance of the coupling from its stability limit, and its local error.
     choice : Choice or None
-        Why this scheme was taken, if it was left to `Auto`.
+        Why `Auto` chose this scheme, if it did.
     """
 
     trajectory: Trajectory
@@ -114,7 +114,7 @@ class CoSimulation(Drawable):
 
     @property
     def film_calls(self) -> int:
-        """Calls of the films, those of derivatives included where the scheme asks for them."""
+        """Calls of the films, including those for derivatives where the scheme needs them."""
         work = self.trajectory.work
         return work["film_evaluations"] + (work["film_jacobians"] if self.scheme.needs.derivatives else 0)
 
@@ -337,18 +337,18 @@ def cosimulate(
     """Couple a rotor with one or several films, FMUs of FMI 2.0 or 3.0 or models in this process, from t = 0.
 
     Signals are connected by their local names (`rotor.x` to `film.x`; in a rotor with several journals
-    `rotor.left_x` to `x` of the film in the station `left`). The loop over the macro steps runs in C,
-    in chunks between which it is watched and can be interrupted, where scheme and partners allow it:
-    Gauss-Seidel, Jacobi, SI-exp and SI-exp3 over FMUs and over models with a kernel.
+    `rotor.left_x` to `x` of the film in the station `left`). Where possible the loop over the macro steps
+    runs in C, in chunks between which it is monitored and can be interrupted. This holds for Gauss-Seidel,
+    Jacobi, SI-exp and SI-exp3 with FMUs and with models that have a kernel.
 
     Parameters
     ----------
     rotor_fmu : path or Dynamic
-        It takes forces and gives motion. Co-Simulation will do for held forces; other schemes take an FMU for
-        Model Exchange with directional derivatives, which the master integrates, or one with the inputs of a
-        force law (`LawRotor`).
+        It takes forces and returns motion. An FMU for Co-Simulation is enough for held forces. Other schemes
+        need an FMU for Model Exchange with directional derivatives, which the master integrates, or one with
+        the inputs of a force law (`LawRotor`).
     film_fmu : path, Model or JFOFilm, or mapping of station to such
-        It takes motion and gives forces, for Co-Simulation.
+        It takes motion and returns forces; an FMU must be for Co-Simulation.
     macro_step : float [s]
         Distance of the communication points; the last step is shorter where it must be.
     duration : float [s]
@@ -356,7 +356,7 @@ def cosimulate(
         `GaussSeidel()` by default: the film is evaluated at the rotor's new state, and its force is held over
         the next step. `Auto()`, or "auto" for short, finds the cheapest that is stable and accurate enough.
     progress : callable, optional
-        Called for each step with the time reached [s], once a chunk of them is done.
+        Called with the time reached [s] after each chunk of steps.
 
     Raises
     ------
@@ -489,12 +489,12 @@ REFERENCES: tuple[tuple[Scheme, int], ...] = (
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class Auto:
-    """Asks for the cheapest scheme that is stable and accurate enough.
+    """Selects the cheapest coupling scheme that is stable and accurate enough.
 
     Parameters
     ----------
     tolerance : float [1]
-        Largest distance of a trial run from a finer one, relative to the largest displacement met.
+        Largest distance of a trial run from a finer one, relative to the largest displacement.
 
     Raises
     ------
@@ -520,7 +520,7 @@ def choose_scheme(attempt: Attempt, auto: Auto, *, macro_step: float, duration: 
     attempt : Attempt
     auto : Auto
     macro_step, duration : float [s]
-        Of the run to come; trials are as long, `TRIAL_STEPS` steps at most.
+        Macro step and duration of the run to come; trials are as long, `TRIAL_STEPS` steps at most.
 
     Raises
     ------

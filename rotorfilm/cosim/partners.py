@@ -28,7 +28,7 @@ class Partners(PartnerInterface):
     ----------
     rotor : Slave
     films : mapping of str to Slave
-        By station; the empty name is that of a rotor with one journal.
+        Films by station; the empty name is that of a rotor with one journal.
     needs : Needs
 
     Raises

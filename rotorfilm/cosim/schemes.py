@@ -141,7 +141,7 @@ FIRST = 1.0 / 63.0
 class Scheme(Hashable, Protocol):
     """How rotor and films take turns over one macro step.
 
-    Schemes are frozen dataclasses without memory: what they extrapolate from is handed to them.
+    Schemes are frozen dataclasses without memory: they get the history from which they extrapolate.
     """
 
     @property
@@ -150,14 +150,14 @@ class Scheme(Hashable, Protocol):
 
     @property
     def label(self) -> str:
-        """Its name in print."""
+        """Name of the scheme in print."""
 
     @property
     def needs(self) -> Needs:
-        """What it asks of its partners."""
+        """Requirements on the partners."""
 
     def step(self, bench: PartnerInterface, history: Sequence[Sample], t: float, dt: float) -> Sample:
-        """Advance from t to t + dt [s], or less, and return what was exchanged there.
+        """Advance from t to t + dt [s], or less, and return the exchanged signals.
 
         Parameters
         ----------
@@ -234,7 +234,7 @@ class _Extrapolating:
 
     @property
     def label(self) -> str:
-        """Its name in print."""
+        """Name of the scheme in print."""
         return f"{self._name} {self.degree}"
 
     @property
@@ -251,12 +251,12 @@ class _Extrapolating:
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class GaussSeidel(_Extrapolating):
-    """Rotor first, under extrapolated forces, then the films at the rotor's new state.
+    """Gauss-Seidel coupling: first the rotor with extrapolated forces, then the films at its new state.
 
     Parameters
     ----------
     degree : int
-        Of the polynomial in time through the latest forces: 0 holds the force, 1 and 2 extrapolate it.
+        Degree of the polynomial in time through the latest forces: 0 holds the force, 1 and 2 extrapolate it.
 
     Raises
     ------
@@ -267,7 +267,7 @@ class GaussSeidel(_Extrapolating):
     _name = "Gauss-Seidel"
 
     def step(self, bench: PartnerInterface, history: Sequence[Sample], t: float, dt: float) -> Sample:
-        """Advance by one macro step, at the start by a part of it; see `Scheme`."""
+        """Advance by one macro step, or by a part of it at the start; see `Scheme`."""
         dt = started(history, self.degree, dt)
         motion = bench.drive(t, dt, extrapolated_law(history, self.degree))
         return bench.evaluate(t, dt, motion, False)
@@ -276,12 +276,12 @@ class GaussSeidel(_Extrapolating):
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class Jacobi(_Extrapolating):
-    """Rotor and films in parallel: forces extrapolated for the rotor, its motion for the films.
+    """Jacobi coupling: rotor and films in parallel, with extrapolated forces and extrapolated motion.
 
     Parameters
     ----------
     degree : int
-        Of both polynomials in time, 0 to 2.
+        Degree of both polynomials in time, 0 to 2.
 
     Raises
     ------
@@ -292,7 +292,7 @@ class Jacobi(_Extrapolating):
     _name = "Jacobi"
 
     def step(self, bench: PartnerInterface, history: Sequence[Sample], t: float, dt: float) -> Sample:
-        """Advance by one macro step, at the start by a part of it; see `Scheme`."""
+        """Advance by one macro step, or by a part of it at the start; see `Scheme`."""
         dt = started(history, self.degree, dt)
         seen = bench.evaluate(t, dt, _ahead(history[-1 - self.degree :], t + dt), False)
         motion = bench.drive(t, dt, extrapolated_law(history, self.degree))
@@ -338,7 +338,7 @@ class _Tangential:
 class SIExp(_Tangential):
     """The rotor integrates F + dF/dq dq + dF/dv dv of its films through the step: one film call, no rollback.
 
-    Stable at every macro step where the coupled system itself is; of second order.
+    It is stable at every macro step for which the coupled system itself is stable, and of second order.
     """
 
     order = 2
@@ -347,19 +347,19 @@ class SIExp(_Tangential):
 
 @dataclass(frozen=True)
 class SIExp3(_Tangential):
-    """SI-exp, and the parabola in time that the last step left over: of third order at the same price.
+    """SI-exp with a parabola in time from the residual force of the last step: third order at the same cost.
 
     With s = (t - t_n)/H and D = F_(n-1) - F_n - dF/dq (q_(n-1) - q_n) - dF/dv (v_(n-1) - v_n), derivatives at
-    t_n, what is left of the force between the two points is D s^2 to third order, before t_n and after it.
-    Of first order only with a film that has states of its own, which change where nothing moves (`SIMemory`
-    is for those); and where the speed changes from the start, the first step has not seen it yet.
+    t_n, the residual force between the two points is D s^2 to third order, before t_n and after it. With a
+    film that has states of its own it is of first order only; use `SIMemory` for those. If the speed changes
+    from the start, the first step does not include that change.
     """
 
     order = 3
     label = "SI-exp3"
 
     def curvature(self, history: Sequence[Sample]) -> Array:
-        """Return what the last step left over."""
+        """Return the residual force of the last step."""
         if len(history) < 2:
             return super().curvature(history)
         before, now = history[-2:]
@@ -408,13 +408,13 @@ def tangent_law(history: Sequence[Sample], curvature: Array) -> ForceLaw:
 
 @dataclass(frozen=True)
 class SIMemory:
-    """SI-exp, and the parabola in time through what the last two steps left over: for films with states.
+    """SI-exp with a parabola in time through the residual forces of two steps: for films with states.
 
-    A film with states changes where nothing moves, so that what its tangents at t_n leave of the force
-    begins with a slope, left(s) = a s + b s^2, s = t - t_n. Both follow from left(t_(n-1) - t_n) and
-    left(t_(n-2) - t_n). Of third order at the price of SI-exp, with a film that is told, as `JFOFilm`,
-    where the journal is at the end of a step and goes there smoothly; a film whose inputs are held over the
-    step stays of first order. A run begins with short steps, as with forces extrapolated by parabolas.
+    The force of a film with states changes even without motion. So the residual force begins with a slope:
+    left(s) = a s + b s^2, s = t - t_n, and both numbers follow from left(t_(n-1) - t_n) and left(t_(n-2) -
+    t_n). The scheme is of third order at the cost of SI-exp if the film gets the journal position at the end
+    of a step and moves there smoothly, as `JFOFilm` does. With inputs that are held over the step it is of
+    first order. A run begins with short steps.
     """
 
     order = 3
@@ -422,7 +422,7 @@ class SIMemory:
     needs = Needs(derivatives=True, laws=True)
 
     def step(self, bench: PartnerInterface, history: Sequence[Sample], t: float, dt: float) -> Sample:
-        """Advance by one macro step, at the start by a part of it; see `Scheme`."""
+        """Advance by one macro step, or by a part of it at the start; see `Scheme`."""
         dt = started(history, 2, dt)
         law = tangent_law(history, np.zeros_like(history[-1].force))
         if len(history) > 2:
@@ -447,15 +447,15 @@ LEAST_PIVOT = 1e-30
 class Newton:
     """The force of a step is held at the mean of both ends, found by Newton's method with rollback.
 
-    The films tell their derivatives; those of the rotor, by the force, are had from one trial step for each
-    force, in the first step and wherever the length of the step changes, exact for a linear rotor. Needs no
-    more of a rotor than held forces and the way back, so any Co-Simulation FMU with FMU states will do.
-    It damps what is fast hardly at all, and a light journal on an elastic shaft gives it a limit after all.
+    The films provide their derivatives. The derivatives of the rotor by each force come from one trial step,
+    in the first step and wherever the step length changes; they are exact for a linear rotor. The rotor only
+    needs held forces and rollback, so any Co-Simulation FMU with FMU states is suitable. Fast motion is
+    hardly damped, and a light journal on an elastic shaft still limits the macro step.
 
     Parameters
     ----------
     tolerance : float [1]
-        Imbalance of the force that is accepted, relative to it.
+        Accepted imbalance of the force, relative to the force.
     most : int
         Iterations before a step counts as failed.
 
@@ -535,11 +535,11 @@ GIVE_UP = 1e-6
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class Adaptive:
-    """Another scheme with macro steps of its own choice; that of the run is the longest, and the first.
+    """Adaptive macro steps for another scheme; the given macro step is the first and the longest one.
 
-    What the tangents leave of the force between two points, D, is a free estimate of the local error. A step
-    is accepted if the change of D from the step before, or D itself, is within the tolerance. Otherwise it is
-    repeated with a shorter length.
+    The difference D between the force and its linear prediction estimates the local error at no cost. A step
+    is accepted if D, or its change from the step before, is within the tolerance. Otherwise it is repeated
+    with a shorter length.
 
     Parameters
     ----------
@@ -571,16 +571,16 @@ class Adaptive:
 
     @property
     def label(self) -> str:
-        """Its name in print."""
+        """Name of the scheme in print."""
         return f"adaptive {self.scheme.label}"
 
     @property
     def needs(self) -> Needs:
-        """What the scheme needs, and a way back."""
+        """Requirements of the scheme, and rollback."""
         return self.scheme.needs._replace(derivatives=True, rollback=True)
 
     def step(self, bench: PartnerInterface, history: Sequence[Sample], t: float, dt: float) -> Sample:
-        """Advance from t by dt or less; the sample says how far it got."""
+        """Advance from t by dt or less; the sample contains the time reached."""
         shortest = GIVE_UP * dt
         dt = min(dt, self._proposed(history, dt))
         while True:

@@ -68,7 +68,7 @@ def wired(rotor: Names, films: Mapping[str, Names]) -> Wiring:
     rotor : (sequence of str, sequence of str)
         Names of its inputs and outputs.
     films : mapping of str to the same
-        By station.
+        Films by station.
 
     Raises
     ------
@@ -275,7 +275,7 @@ class InProcessSlave(_Held, Integrated):
     Parameters
     ----------
     model : Model
-        With or without states.
+        Model with or without states.
     """
 
     def __init__(self, model: Model) -> None:
@@ -359,7 +359,7 @@ class SteppedPartner(_Held):
     Parameters
     ----------
     film : Stepped
-        That takes steps with their slope, as a `JFOFilm`.
+        Film that takes steps with their slope, as a `JFOFilm`.
     """
 
     differentiates = True

@@ -54,16 +54,16 @@ JUMPS = 5
 
 @dataclass(frozen=True, kw_only=True)
 class CouplingReport(Readable):
-    """What the exchanged forces say about a coupling.
+    """Reliability of a coupling, judged from the exchanged forces.
 
     Attributes
     ----------
     chatter : bool
-        Whether the force alternates from step to step without decaying: the macro step is past the
-        stability limit, or too coarse for the motion, and the run is no answer.
+        Whether the force alternates from step to step without decaying: the macro step is beyond the
+        stability limit or too coarse for the motion, and the result is not valid.
     coarse : bool
-        Whether, within some window, the force jumps by half its root mean square in many steps: the run is
-        no answer either.
+        Whether, within some window, the force jumps by half its root mean square in many steps: the result is
+        not valid either.
     onset : float or None [s]
         When the alternation, or else the coarse window, begins.
     amplitude : float [1]
@@ -183,20 +183,21 @@ NEUTRAL = 1e-9
 
 @dataclass(frozen=True, kw_only=True)
 class CouplingWatch(Readable):
-    """How far a coupling was from its limit, and its local error.
+    """Distance of a coupling from its stability limit, and its local error.
 
     Attributes
     ----------
     local_error : float or None [1]
-        Root mean square, over the steps, of the force that the scheme did not foresee, in root mean square
-        forces: D of a linearly implicit scheme, the error of the extrapolation of an explicit one.
+        Root mean square, over the steps, of the part of the force that the scheme did not predict, relative
+        to the root mean square force: D of a linearly implicit scheme, the error of the extrapolation of an
+        explicit one.
     explicit_ratio : float or None [1]
-        Largest macro step * damping / local mass of the journal met: where an explicit coupling of these
-        partners ends, between 0.5 and 2 by its degree. None where the derivatives are not known.
+        Largest value of macro step * damping / local mass of the journal. The limit of an explicit coupling
+        is between 0.5 and 2, depending on its degree. None if the derivatives are unknown.
     spectral_radius : float or None [1]
-        Largest growth per step of the sampled system of this scheme met.
+        Largest growth per macro step (spectral radius) of the coupled, linearized system.
     warnings : tuple of str
-        What was warned of.
+        Texts of the warnings.
     """
 
     local_error: float | None

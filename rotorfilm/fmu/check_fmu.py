@@ -309,7 +309,7 @@ def replay_steps(description: Any, folder: str, table: Array) -> Array:
     ----------
     description : fmpy.model_description.ModelDescription
     folder : str
-        Where the FMU was extracted.
+        Folder where the FMU was extracted.
     table : ndarray, shape (n_rows, 1 + n_inputs + ...)
         Columns time and inputs; the inputs of a row are held until the next row.
     """

@@ -251,7 +251,7 @@ def to_xml(description: Description, version: str, token: str) -> bytes:
     ----------
     description : Description
     version : str
-        Of FMI, "2.0" or "3.0".
+        Version of FMI, "2.0" or "3.0".
     token : str
         What FMI 2.0 calls guid, FMI 3.0 instantiationToken.
     """

@@ -45,23 +45,24 @@ def export_fmu(
 ) -> Path:
     """Write `model` as an FMU.
 
-    A model with a kernel in the C library becomes a native FMU: Model Exchange and Co-Simulation in one,
-    with exact directional derivatives, its own sources, tunable parameters and a reference trajectory, and
-    without need of Python. Any other becomes an FMI 2.0 Co-Simulation FMU that carries its Python source;
-    a Stepped model one whose outputs belong to the end of the last step; with a kernel it is native too, for
-    Co-Simulation alone and without derivatives.
+    A model with a kernel in the C library becomes a native FMU: Model Exchange and Co-Simulation in one, with
+    exact directional derivatives, its own sources, tunable parameters and a reference trajectory, and without
+    need of Python. Any other model becomes an FMI 2.0 Co-Simulation FMU that carries its Python source. The
+    outputs of a Stepped model belong to the end of the last step; with a kernel its FMU is native too, for
+    Co-Simulation only and without derivatives.
 
     Equal models give byte-identical files. Each signal is a structured variable `component.signal`, each
     state a local `component.state_signal`, settable before the simulation starts. A bearing and a rotor have
-    a terminal for each journal, with position, velocity, speed and force. The time of the export is in
-    the FMU where the environment variable SOURCE_DATE_EPOCH has it, in seconds since 1970.
+    a terminal for each journal, with position, velocity, speed and force. The FMU contains the time of the
+    export only if the environment variable SOURCE_DATE_EPOCH gives it, in seconds since 1970.
 
     Parameters
     ----------
     model : Model, Stepped or control.StateSpace
-        A continuous python-control system is a model whose signals are its labels. For the python backend
-        a dataclass (of this package or from a module of the user) whose fields are numbers, bools, strings,
-        None, tuples, lists, numpy arrays, functions from the top of such a module, or such dataclasses.
+        A continuous python-control system is a model whose signals are its labels. For the python backend it
+        must be a dataclass (of this package or from a module of the user) whose fields are numbers, bools,
+        strings, None, tuples, lists, numpy arrays, functions from the top of such a module, or such
+        dataclasses.
     path : str or Path
         File to write, ending in `.fmu`; its folder is made if need be.
     version : str
@@ -84,8 +85,8 @@ def export_fmu(
     flat_names : bool
         Whether variables are named `signal` and `state_signal`, without the component.
     fixed_size : bool
-        Whether radius and length of a plain journal bearing stay as they are: the FMU then carries the map of
-        their ratio in place of that over all, which makes it a fifth smaller.
+        Whether radius and length of a plain journal bearing are fixed. The FMU then carries the map of their
+        ratio only, which makes it 20 % smaller.
 
     Returns
     -------

@@ -164,7 +164,7 @@ class Instance:
     ----------
     fmu : fmpy.fmi2._FMU2 or fmpy.fmi3._FMU3
     version : str
-        Of FMI, "2.0" or "3.0".
+        Version of FMI, "2.0" or "3.0".
     exchange : bool
         Whether it is for Model Exchange.
     """

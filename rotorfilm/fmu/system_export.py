@@ -58,21 +58,21 @@ def export_ssp(
 ) -> Path:
     """Write a rotor and the films under it as one system of SSP 1.0, which tools of SSP 2.0 read too.
 
-    Inside are an FMU of each (`resources/`), with names of variables that leave out the component. There are
-    also the connections of each station (position, velocity and speed to the film, force to the rotor), and
-    the values of all parameters as a parameter set. The names of the components are `rotor`, and `film` or
-    those of the stations.
+    The file contains an FMU of each (in `resources/`), with variable names without the component. It also has
+    the connections of each station (position, velocity and speed to the film, force to the rotor), and a
+    parameter set with all parameter values. The components are called `rotor`, and `film` or by the names of
+    the stations.
 
     Parameters
     ----------
     rotor : Dynamic or control.StateSpace
-        With inputs `force_x`, `force_y` and outputs `x`, `y`, `vx`, `vy` of each station.
+        Rotor with inputs `force_x`, `force_y` and outputs `x`, `y`, `vx`, `vy` of each station.
     films : Model or Stepped, or a mapping of stations to these
         Bearings or dampers.
     path : str or Path
         File to write, ending in `.ssp`; its folder is made if need be.
     version, platforms : str
-        As in `export_fmu`.
+        Version and platforms as in `export_fmu`.
     start : mapping of str to mapping of str to float, optional
         Start values of inputs [SI] by component and signal.
     stop_time, step_size : float [s]
@@ -204,12 +204,12 @@ def system_structure(
     Parameters
     ----------
     name : str
-        Of the system.
+        Name of the system.
     components : sequence of Part
-        With the variables that are connected, and all parameters.
+        Components with the variables that are connected, and all parameters.
     connections : sequence of Connection
     stop_time : float [s]
-        Of the default experiment.
+        Stop time of the default experiment.
     """
     root = Element("ssd:SystemStructureDescription", {**NAMESPACES, "version": VERSION, "name": name})
     system = SubElement(root, "ssd:System", name=name)

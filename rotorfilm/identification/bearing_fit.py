@@ -197,12 +197,12 @@ CHANCE = 0.999
 
 @dataclass(frozen=True, kw_only=True)
 class FittedParameter(Readable):
-    """A parameter as measurements have it, in its SI unit.
+    """A fitted parameter with its uncertainty, in its SI unit.
 
     Attributes
     ----------
     value : float
-        With which the bearing comes closest to what was measured.
+        Value of the best fit to the measurements.
     standard_error : float
         Standard deviation of the value.
     low, high : float
@@ -222,22 +222,22 @@ class BearingFit(Readable):
     Attributes
     ----------
     parameters : dict of str to FittedParameter
-        Of each free parameter.
+        Result for each free parameter, by its name.
     confidence : float [1]
-        Of the intervals, each by itself.
+        Confidence of each interval by itself.
     correlation : ndarray, shape (m, m) [1]
-        Of the errors of the parameters, in their order.
+        Correlation of the errors of the parameters, in their order.
     misfit : float [1]
-        Root of the mean square of what is left over, in the noise of each quantity, or in its size where no
-        noise was given.
+        Root mean square of the residuals, relative to the noise of each quantity, or to its size if no noise
+        was given.
     highest_misfit : float [1]
-        What the stated noise explains in 999 of 1000 fits; infinite where none was given.
+        Misfit that the stated noise stays below in 999 of 1000 fits; infinite if no noise was given.
     residuals : dict of str to ndarray, shape (n,)
-        Measured less fitted, by quantity, in its SI unit; not-a-number where nothing was measured.
+        Measured minus fitted values, by quantity, in its SI unit; not-a-number where nothing was measured.
     bearing : JournalBearing
-        With the fitted parameters.
+        Bearing with the fitted parameters.
     evaluations : int
-        Trials of all parameters.
+        Number of evaluations of all measured quantities.
     """
 
     parameters: dict[str, FittedParameter]
@@ -254,7 +254,7 @@ class BearingFit(Readable):
 
     @property
     def verdict(self) -> str:
-        """Whether the noise that was stated explains what is left over."""
+        """Whether the stated noise explains the residuals."""
         if self.misfit <= self.highest_misfit:
             return (
                 "the stated noise explains the misfit" if self.highest_misfit < math.inf else "no noise given"
@@ -265,7 +265,7 @@ class BearingFit(Readable):
         )
 
     def to_table(self) -> ResultTable:
-        """Return the parameters, one a row: value, standard error and interval, each in its SI unit."""
+        """Return a row for each parameter: value, standard error and interval, in its SI unit."""
         names, found = list(self.parameters), list(self.parameters.values())
         numbers = ("value", "standard_error", "low", "high")
         return ResultTable(
@@ -299,19 +299,20 @@ def fit_bearing(
     free: Sequence[str] = ("clearance",),
     confidence: float = 0.95,
 ) -> BearingFit:
-    """Return the parameters with which a bearing shows what was measured.
+    """Return the bearing parameters that fit measurements best.
 
     Parameters
     ----------
     bearing : JournalBearing
-        With a first guess of its parameters. Its temperature may be stated, or left to the heat balance.
+        Bearing with a first guess of its parameters. Its temperature may be given, or follow from the heat
+        balance.
     measured : Measurements
     free : sequence of str
         Among "clearance", "length" [m], "viscosity" [Pa s] or "temperature" [K] of the film,
         "supply_temperature", "ambient_temperature" [K], "housing_conductance" [W/K], "carry_over" of the
-        cooling, and "zero_x", "zero_y" [m], what the sensors show of a centered journal.
+        cooling, and "zero_x", "zero_y" [m], the sensor reading for a centered journal.
     confidence : float [1]
-        Of the intervals, above 0 and below 1.
+        Confidence of the intervals, above 0 and below 1.
 
     Raises
     ------
@@ -323,12 +324,10 @@ def fit_bearing(
     ConvergenceError
         If the search does not end.
 
-    Notes
-    -----
-    Least squares over scaled parameters. Positions and temperatures have exact derivatives by the clearance,
-    by viscosity or temperature of the film and, without openings, by the cooling; the others central
-    differences. The covariance is that of the linear problem at the solution: (J^T J)^-1, where no noise was
-    given times the mean square of what is left over, with the quantile of Student's distribution.
+    Notes ----- Least squares over scaled parameters. Positions and temperatures have exact derivatives by the
+    clearance, by the viscosity or temperature of the film and, without openings, by the cooling. All others
+    are central differences. The covariance is that of the linearized problem, (J^T J)^-1. If no noise was
+    given, it is multiplied by the mean square of the residuals, and the interval uses Student's distribution.
 
     Examples
     --------

@@ -44,11 +44,11 @@ class Measurements:
     load : array_like, shape (2,) or (2, n) [N]
         External static force on the journal.
     values : mapping of str to array_like, shape (n,)
-        By name, in SI units: "x" and "y" of the journal, "temperature" of the film, "power_loss",
-        "side_flow", and "kxx" to "cyy". Not-a-number where one was not measured.
+        Values by name, in SI units: "x" and "y" of the journal, "temperature" of the film, "power_loss",
+        "side_flow", and "kxx" to "cyy". Use not-a-number where a quantity was not measured.
     noise : mapping of str to float, optional
-        Standard deviation of each quantity, in its unit. Without it, each counts relative to its own size,
-        and what the fit leaves over says how noisy it is.
+        Standard deviation of each quantity, in its unit. Without it, each quantity is weighted by its own
+        size, and the residuals of the fit tell how noisy it is.
 
     Raises
     ------
@@ -103,7 +103,7 @@ class Measurements:
         ----------
         path : Path or str
         load : array_like, shape (2,) [N], optional
-            Of all rows; by default it stands in columns load_x and load_y.
+            Load of all rows; by default it stands in columns load_x and load_y.
         noise : mapping of str to float, optional
             As above.
 
@@ -129,7 +129,7 @@ class Measurements:
 
     @property
     def count(self) -> int:
-        """How many numbers were measured."""
+        """Number of measured values."""
         return int(sum(np.isfinite(series).sum() for series in self._found.values()))
 
     @property
@@ -144,12 +144,12 @@ class Measurements:
 
     @property
     def table(self) -> Array:
-        """The numbers, shape (n, quantities)."""
+        """Measured values, shape (n, quantities)."""
         return np.stack(list(self._found.values()), axis=-1)
 
     @property
     def scale(self) -> Array:
-        """What a deviation of each quantity counts by: its noise, or its own size, shape (quantities,)."""
+        """Scale of the residuals of each quantity: its noise, or its own size, shape (quantities,)."""
         if self.noise is not None:
             return np.array([self.noise[name] for name in self.names])
         sizes = np.sqrt(np.nanmean(self.table**2, axis=0))

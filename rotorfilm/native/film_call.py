@@ -28,7 +28,7 @@ class FilmCall(NamedTuple):
     Attributes
     ----------
     address : int
-        Of the function.
+        Address of the function.
     data : int
         Its first argument.
     owner : object

@@ -337,7 +337,7 @@ class LobesKernel(ResponseKernel):
     Parameters
     ----------
     films : sequence of JournalKernel
-        Of each pad, in its own frame.
+        Films of each pad, in its own frame.
     places : sequence of (float, (float, float))
         As many: angle of the middle of its arc [rad], and center of its curvature [m].
     """
@@ -377,7 +377,7 @@ class OilParts(NamedTuple):
     least : float [1]
         Of its sqrt(1 - eps^2).
     nodes, weights : ndarray
-        Over the zone.
+        Nodes and weights over the zone.
     """
 
     zone: float

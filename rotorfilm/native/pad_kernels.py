@@ -44,12 +44,12 @@ class RestPoint(NamedTuple):
     ----------
     force : ndarray, shape (2,) [N]
     slopes : ndarray, shape (2, 5)
-        By x, y, vx, vy, speed; those by the velocity are 0.
+        Slopes by x, y, vx, vy, speed; those by the velocity are 0.
     pads : dict of str to ndarray, shape (pads,)
-        By the names of `REST`.
+        Pads by the names of `REST`.
     status : int
     pad : int
-        As of a `TiltingPoint`.
+        Pad as for a `TiltingPoint`.
     """
 
     force: Array
@@ -65,15 +65,15 @@ class TiltingKernel:
     Parameters
     ----------
     film : FilmKernel
-        Of one pad, in the frame of its middle.
+        Film of one pad, in the frame of its middle.
     extent : float [rad]
-        Of a pad.
+        Extent of a pad.
     offset : float [1]
         Share of the extent before the pivot.
     pivots : ndarray, shape (pads,) [rad]
     preload : float [1]
     clearance : float [m]
-        Of a pad.
+        Clearance of a pad.
     force_scale : float [N s]
         viscosity * length * radius^3 / clearance^2.
     spring : float [N/m]

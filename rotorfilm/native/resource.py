@@ -73,8 +73,8 @@ def pack(spec: NativeSpec, token: str, variables: Sequence[Variable]) -> bytes:
     token : str
         FMI 2 guid, FMI 3 instantiationToken: what the simulator must present. At most 127 bytes.
     variables : sequence of Variable
-        In the order of their value references, roles ascending. Of a name, which serves messages, at most 47
-        bytes are kept.
+        Variables in the order of their value references, roles ascending. Of a name, which serves messages,
+        at most 47 bytes are kept.
 
     Raises
     ------

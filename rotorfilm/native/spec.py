@@ -22,9 +22,9 @@ class NativeParameter(Signal):
     Parameters
     ----------
     name, unit, description : str
-        As of a `Signal`; the name is unique within the kernel.
+        Name, unit and description as for a `Signal`; the name is unique within the kernel.
     nominal, minimum, maximum : float
-        As of a `Signal`.
+        Nominal, minimum and maximum as for a `Signal`.
     value : float
         Its value in the model, the start value.
     tunable : bool
@@ -74,7 +74,7 @@ class NativeSpec:
     kernel : str
         Name in `native/kernels/kernel_list.h`.
     parameters : tuple of NativeParameter
-        In the order of the kernel.
+        Parameters in the order of the kernel.
     tables : mapping of str to ndarray
         Finite numbers of at most four axes, by the name that the kernel asks for.
     inputs : tuple of str or None
@@ -153,7 +153,7 @@ def journal_spec(
     ----------
     kernel : str
     tables : mapping of str to ndarray
-        Of the film.
+        Tables of the film.
     dimensions : mapping of str to float
         Radius, length, clearance [m] and viscosity [Pa s].
     fixed : bool

@@ -56,7 +56,7 @@ class DamperCurveRung(CandidateRung):
     rotor : RigidRotor
         Centered by its springs.
     stiffness : float [N/m]
-        Of the springs.
+        Stiffness of the springs.
     quantity : str
     """
 
@@ -317,9 +317,9 @@ class DamperPeakRung(PeakRung):
     Attributes
     ----------
     rotor : RigidRotor
-        At rest in the center.
+        Rotor at rest in the center.
     stiffness : float [N/m]
-        Of the retainer springs.
+        Stiffness of the retainer springs.
     duration : float [s]
     """
 

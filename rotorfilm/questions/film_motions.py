@@ -68,7 +68,7 @@ class OrbitRung(CandidateRung):
         A key of `ORBIT_UNITS`.
     rotor : RigidRotor
     samples : int
-        Over a turn; 0 for the linear orbit.
+        Samples over a turn; 0 for the linear orbit.
     """
 
     quantity: str
@@ -284,7 +284,7 @@ class PeakMotion(NamedTuple):
     coarse : float [m]
         The peak in steps twice as long; nan where nobody needs it.
     steps : int
-        Over a turn; 0 for the linear motion.
+        Steps over a turn; 0 for the linear motion.
     """
 
     motion: equal_steps.MarchMotion
@@ -301,7 +301,7 @@ class PeakRung(CandidateRung):
     Attributes
     ----------
     steps : int
-        Over a turn, at the highest speed; 0 for the linear motion.
+        Steps over a turn, at the highest speed; 0 for the linear motion.
     """
 
     steps: int

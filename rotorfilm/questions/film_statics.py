@@ -401,12 +401,12 @@ class WhirlQuestion(FilmQuestion):
     Attributes
     ----------
     mass : float [kg]
-        Of the rotor.
+        Mass of the rotor.
     secants : callable
         `rotorfilm.analysis.speed_events.secant_speed`.
     levels : tuple of FieldLevel
     rests, field_rests : float
-        As of any question.
+        Rests and field rests as of any question.
     """
 
     mass: float

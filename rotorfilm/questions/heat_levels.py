@@ -75,7 +75,7 @@ class WarmSolution(NamedTuple):
     ----------
     level : HeatLevel or FieldLevel
     found : Found
-        Of the rung on the film at its temperature.
+        Found of the rung on the film at its temperature.
     rung : Rung or None
         That one.
     own : WarmRest or None

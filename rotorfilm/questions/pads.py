@@ -51,7 +51,7 @@ class PadCandidate(FilmCandidate):
     Attributes
     ----------
     reaction : LobedBearing or PressureDamBearing
-        With this film.
+        Reaction with this film.
     rich : LobedBearing or PressureDamBearing
         With the richer one.
     """
@@ -217,7 +217,7 @@ class TiltingCandidate(FilmCandidate):
     Attributes
     ----------
     reaction : TiltingPadBearing
-        With this film.
+        Reaction with this film.
     rich : TiltingPadBearing
         With the richer one.
     """

@@ -91,9 +91,9 @@ class BallQuestion:
     load : (float, float) [N]
     speed : float [rad/s]
     oil : RaceOil or None
-        On the races.
+        Oil on the races.
     roughness : float or None [m]
-        Of ball and race together.
+        Roughness of ball and race together.
     """
 
     quantity: str

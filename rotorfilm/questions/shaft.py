@@ -55,7 +55,7 @@ class ShaftSpeed:
     Attributes
     ----------
     whirls : tuple of Whirl
-        By rising speed; those near the first, which another model may have in another order.
+        Whirls by rising speed; those near the first, which another model may have in another order.
     model : ShaftModel
     """
 
@@ -87,7 +87,7 @@ class ShaftSpeedRung(shaft_films.ShaftRung):
     event : SpeedEvent
         What happens at the speed that is asked for.
     speeds : ndarray, shape (n,) [rad/s]
-        Where it is looked for.
+        Speeds where it is looked for.
     """
 
     event: speed_events.SpeedEvent

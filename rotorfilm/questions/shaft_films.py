@@ -55,7 +55,7 @@ class ShaftFilms:
     Attributes
     ----------
     journals : dict of str to FilmRung
-        By station.
+        Journals by station.
     springs : dict of str to Reaction
         Bearings without a film, by station.
     """
@@ -239,9 +239,9 @@ def shaft_ladder_on(
     ----------
     scene : Scene
     rotor : ShaftRotor
-        Of the remarks.
+        Rotor of the remarks.
     speed : float [rad/s]
-        Of the remarks.
+        Speed of the remarks.
     unit : str
     rungs : sequence of ShaftRung
         On films as warm as the rest makes them, where they are of an oil (T1).
@@ -466,7 +466,7 @@ def field_orbits(
     Parameters
     ----------
     films : ShaftFilms
-        On their oils.
+        Films on their oils.
     rest : RotorEquilibrium
         On these.
     rung_on : callable

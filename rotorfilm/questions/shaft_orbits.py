@@ -57,10 +57,10 @@ class ShaftOrbitRung(shaft_films.ShaftRung):
     Attributes
     ----------
     place : OrbitPlace
-        Where the orbit is asked about, and which of its quantities.
+        Place where the orbit is asked about, and which of its quantities.
     speed : float [rad/s]
     samples : int
-        Over a turn; 0 for the linear orbit.
+        Samples over a turn; 0 for the linear orbit.
     """
 
     place: OrbitPlace
@@ -305,9 +305,9 @@ class ShaftExcitation:
     places : tuple of str
         Bearings and probes among which the largest displacement counts.
     speed : float [rad/s]
-        At rest, where the run begins.
+        Speed at rest, where the run begins.
     times : ndarray, shape (n,) [s]
-        Of the samples.
+        Times of the samples.
     base : BaseMotion or None
         Of the ground.
     """

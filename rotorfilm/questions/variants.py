@@ -74,7 +74,7 @@ def counted_rung(
     ----------
     name : str
     key : hashable
-        Of the unit of its answers.
+        Key of the unit of its answers.
     seconds : float [s]
         About what an answer takes.
     ask : callable

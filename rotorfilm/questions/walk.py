@@ -358,7 +358,7 @@ class LadderRow(Readable):
     error_estimate : float or None [1]
         None where it has no answer.
     cost : float or None [s]
-        Of its answer.
+        Cost of its answer.
     chosen : bool
         Whether it is the one that answers the scene.
     reason : str

@@ -46,7 +46,7 @@ def write_page(folder: Path) -> Path:
     Parameters
     ----------
     folder : Path
-        Where the `rotorfilm chart` commands wrote.
+        Folder where the `rotorfilm chart` commands wrote.
 
     Returns
     -------

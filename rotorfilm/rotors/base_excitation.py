@@ -44,14 +44,14 @@ def _cosines(phasors: np.ndarray, first: float, step: float, times: Array) -> Ar
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class BaseMotion:
-    """Acceleration of the ground, and of all housings with it: linear between samples, none before and after.
+    """Acceleration of the ground and all housings over time: linear between samples, 0 before and after.
 
     Parameters
     ----------
     times : tuple of float [s]
-        Strictly increasing, two at least.
+        Strictly increasing times, at least two.
     acceleration_x, acceleration_y : tuple of float [m/s2]
-        At these times; an empty one is none.
+        At these times; empty for none.
 
     Raises
     ------
@@ -113,7 +113,7 @@ class BaseMotion:
             is the mean square.
         duration : float [s]
         seed : int
-            Of the phases.
+            Seed of the phases.
         """
         require_positive("duration", duration)
         omega, power = require_finite("frequencies", frequencies), require_finite("density", density)
@@ -138,7 +138,7 @@ class BaseMotion:
         return cls(times=tuple(times), acceleration_x=tuple(x), acceleration_y=tuple(y))
 
     def acceleration(self, t: float) -> Array:
-        """Return the acceleration at the time t [s], shape (2,) [m/s2]; at a jump that after it."""
+        """Return the acceleration at the time t [s], shape (2,) [m/s2]; at a jump the value after it."""
         if not self.times[0] <= t < self.times[-1]:
             return np.zeros(2)
         times, x, y = self.rows
@@ -160,12 +160,11 @@ class BaseMotion:
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class BaseExcitedRotor(AroundRotor):
-    """A rotor whose housings all move with the ground: a Dynamic model, as it is seen from the ground.
+    """A rotor with base excitation: all housings move with the ground, and motion is relative to the ground.
 
-    Displacements are those from the ground. Seen from there each mass feels the force -mass acceleration,
-    which M q'' = ... - M j a adds to the equations of the rotor, with the translation j of the whole rotor.
-    Supports, tilt springs and external damping stand on the ground. Housings that move apart from each other
-    are not covered.
+    In this moving frame each mass has the inertia force -mass acceleration. So the equations of the rotor are
+    M q'' = ... - M j a, with the translation j of the whole rotor and the ground acceleration a. Supports,
+    tilt springs and external damping stand on the ground. Different motions of the housings are not covered.
 
     Parameters
     ----------

@@ -38,16 +38,16 @@ rotor, shape (2, N); and the stiffness against that which it takes in its weak a
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class JeffcottCrack:
-    """A crack in the shaft of a `JeffcottRotor`, by what it takes of its stiffness when open.
+    """A crack in the shaft of a `JeffcottRotor`, given by the loss of stiffness when it is open.
 
     Parameters
     ----------
     reduction : float [1]
         Share of the stiffness lost in the direction of the crack, from 0 to below 1.
     cross_reduction : float [1]
-        The same across; not larger.
+        Share of the stiffness lost across the crack; not larger than `reduction`.
     crack_angle : float [rad]
-        From +x to the crack at t = 0, positive about +z.
+        Crack angle from +x to the crack at t = 0, positive about +z.
 
     Raises
     ------
@@ -69,7 +69,7 @@ class JeffcottCrack:
             )
 
     def weakness(self, rotor: object) -> Weakness:
-        """Return what it takes from a JeffcottRotor; raise InputError for another rotor."""
+        """Return the loss of stiffness of a JeffcottRotor; raise InputError for another rotor."""
         require_kind("rotor", rotor, JeffcottRotor, "a JeffcottRotor for a JeffcottCrack")
         assert isinstance(rotor, JeffcottRotor)
         rows = np.array([[1.0, -1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -1.0]])
@@ -84,22 +84,20 @@ class ShaftCrack:
     Parameters
     ----------
     element : int
-        Its number, from 0; a solid cylinder.
+        Index of the cracked element, from 0; it must be a solid cylinder.
     depth : float [m]
-        At its deepest, to the radius.
+        Largest depth of the crack, at most the radius.
     crack_angle : float [rad]
-        From +x to the crack at t = 0, positive about +z.
+        Crack angle from +x to the crack at t = 0, positive about +z.
 
     Raises
     ------
     InputError
         If an argument breaks its rule; where the rotor is known, if it has no such solid element.
 
-    Notes
-    -----
-    A hinge of compliance h (`crack_compliance`) in the middle of an element of bending stiffness EI over a
-    length l takes kappa^2 h/(1 + kappa h), kappa = EI/l, from its stiffness against the difference of the
-    tilts of its ends: exactly, with shear or without.
+    Notes ----- A hinge of compliance h (`crack_compliance`) in the middle of an element of bending stiffness
+    EI over a length l reduces its stiffness against the difference of the tilts of its ends by kappa^2 h/(1 +
+    kappa h), kappa = EI/l. This is exact, with or without shear.
     """
 
     element: int
@@ -112,7 +110,7 @@ class ShaftCrack:
         require_number("crack_angle", self.crack_angle)
 
     def weakness(self, rotor: object) -> Weakness:
-        """Return what it takes from a ShaftRotor; raise InputError for another rotor."""
+        """Return the loss of stiffness of a ShaftRotor; raise InputError for another rotor."""
         require_kind("rotor", rotor, ShaftRotor, "a ShaftRotor for a ShaftCrack")
         assert isinstance(rotor, ShaftRotor)
         piece = self._piece(rotor)
@@ -167,14 +165,14 @@ class MayesDaviesBreathing:
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class GaschHinge:
-    """A crack that is open or closed, as a hinge (Gasch 1976, 1993, J. Sound Vib. 160, 313-332).
+    """A hinge model: the crack is either open or closed (Gasch 1976, 1993, J. Sound Vib. 160, 313-332).
 
-    It switches where it passes the neutral axis, a quarter of a turn from where it is wide open.
+    It switches at the neutral axis, a quarter of a turn from the fully open position.
 
     Parameters
     ----------
     edge : float [rad]
-        Angle to either side over which it switches, in a cubic; at most a quarter of a turn.
+        Angle to either side over which it switches smoothly, as a cubic; at most a quarter of a turn.
 
     Raises
     ------
@@ -198,7 +196,7 @@ class GaschHinge:
 
 @dataclass(frozen=True)
 class OpenCrack:
-    """A notch that never closes: an asymmetric shaft, as also a rotor with slots or a keyway is."""
+    """A notch that never closes: an asymmetric shaft, like a rotor with slots or a keyway."""
 
     def share(self, angle: float) -> float:
         """Return 1 at every angle [rad]."""
@@ -211,25 +209,26 @@ class OpenCrack:
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class CrackedRotor(AroundRotor):
-    """A rotor with one crack: a Dynamic model with a stiffness that turns and breathes with the shaft.
+    """A rotor with one crack: its stiffness rotates with the shaft, and the crack may breathe.
 
         M q'' + (C + w G) q' + (K + w H - share(p) E' R(p)' diag(loss) R(p) E) q = ...
 
-    E q is what the crack gives way to in both planes, R(p) turns it into the axes of the crack, weak
-    direction first, and p is the angle of the crack. The motion stays small beside the deflection of the
-    weight, which says when the crack is open: weight dominance. Damping of the shaft stays as it is.
+    E q is the local deformation at the crack in both planes, R(p) rotates it into the axes of the crack, weak
+    direction first, and p is the angle of the crack. The model assumes weight dominance: vibration is small
+    compared with the static deflection, which alone decides when the crack is open. The damping of the shaft
+    does not change.
 
     Parameters
     ----------
     rotor : JeffcottRotor or ShaftRotor
         Its speed may be a profile.
     crack : JeffcottCrack or ShaftCrack
-        Where it is, how deep, and at what angle.
+        Position, depth and angle of the crack.
     breathing : Breathing
         `MayesDaviesBreathing()`, `GaschHinge()`, or `OpenCrack()` for a notch.
     opening_angle : float or None [rad]
-        From +x to where the crack is wide open; None for the direction of gravity, towards which a shaft
-        between its bearings is stretched. An overhung shaft wants the opposite.
+        Angle from +x at which the crack is fully open. None takes the direction of gravity, which is right
+        for a shaft between its bearings; an overhung shaft needs the opposite direction.
 
     Raises
     ------
@@ -287,7 +286,7 @@ class CrackedRotor(AroundRotor):
         return Linearization(whole, B, C, D)
 
     def lost(self, t: float) -> Array:
-        """Return the stiffness that the crack takes at a time [s], along x and y, shape (2, 2)."""
+        """Return the loss of stiffness by the crack at a time [s], along x and y, shape (2, 2)."""
         angle = self.profile.angle(t) + self.crack.crack_angle
         share = self.breathing.share(angle - self._open_at)
         turn = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
@@ -320,17 +319,17 @@ def crack_compliance(
 ) -> tuple[float, float]:
     """Return the tilt per bending moment [rad/(N m)] that an open crack adds, weak and strong direction.
 
-    The moment of the first opens the crack, that of the second bends it along its straight edge. Strips of
-    the section are plates with an edge crack in bending, and of half a section each in tension, whose energy
-    release adds up (Dimarogonas & Papadopoulos 1983, J. Sound Vib. 91, 583-593; stress intensities of Tada,
-    Paris & Irwin).
+    The moment in the weak direction opens the crack; that in the strong direction bends the section along its
+    straight edge. The section is divided into strips: plates with an edge crack, in bending for the weak
+    direction and in tension for the strong one, whose energy release adds up (Dimarogonas & Papadopoulos
+    1983, J. Sound Vib. 91, 583-593; stress intensities of Tada, Paris & Irwin).
 
     Parameters
     ----------
     depth : float [m]
-        At its deepest; to the radius.
+        Largest depth of the crack, at most the radius.
     radius : float [m]
-        Of the shaft, which is solid.
+        Radius of the shaft, which is solid.
     young_modulus : float [Pa]
     poisson_ratio : float [1]
 

@@ -135,7 +135,7 @@ class LawRotor(AroundRotor):
     Parameters
     ----------
     rotor : Dynamic
-        With inputs force_x, force_y and outputs x, y, vx, vy of each station.
+        Rotor with inputs force_x, force_y and outputs x, y, vx, vy of each station.
     stations : tuple of str
         The empty name is that of a rotor with one journal.
 

@@ -35,7 +35,7 @@ class DriveTorque(Protocol):
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class LinearMotor:
-    """A motor whose torque falls in a line to nothing at its idle speed, and what resists it.
+    """A motor whose torque falls linearly to zero at its idle speed, with a resisting torque.
 
         torque = stall_torque (1 - speed / idle_speed) - resistance speed
 
@@ -44,10 +44,10 @@ class LinearMotor:
     stall_torque : float [N m]
         Torque at rest, in the direction of the idle speed; positive.
     idle_speed : float or SpeedProfile [rad/s]
-        Speed without load. A profile is that of a converter: the slope of the line is then that of its
-        largest value, stall_torque / |idle_speed|, and the line is shifted.
+        Speed without load. A profile describes a frequency converter: the torque line is shifted with it,
+        with the slope stall_torque / |idle_speed| of the largest idle speed.
     resistance : float [N m s/rad]
-        Torque per rad/s that resists, of bearings, windage and load.
+        Resisting torque of bearings, windage and load, per rad/s.
 
     Raises
     ------
@@ -109,7 +109,7 @@ class _Turn(NamedTuple):
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class MotorDrivenRotor(AroundRotor):
-    """A rotor that a torque drives, in place of a given speed: a Dynamic model.
+    """A rotor that is driven by a torque, instead of a given speed: a Dynamic model.
 
     With the angle p turned, w = p', the coordinates q of the rotor and its unbalance U (docs of `Structure`),
 
@@ -117,21 +117,22 @@ class MotorDrivenRotor(AroundRotor):
         inertia p'' + (U n)' q'' = torque + (U n)' g + (J q)' C_i (q' - w J q),
 
     e = (cos p, sin p), n = e', g the acceleration of gravity and J q the displacement turned by +90 deg. C_i
-    is the rotating damping: what it does to the whirl and to the torque are one. Both equations follow from
-    one kinetic energy (for a mass on springs: Dimentberg et al. 1997, Nonlinear Dynamics 13, 171-187), so the
-    power of the torque is what whirl and losses take: it may hang at its critical speed (Sommerfeld 1902).
+    is the rotating damping, which acts on the whirl and on the torque consistently. Both equations follow
+    from one kinetic energy (for a mass on springs: Dimentberg et al. 1997, Nonlinear Dynamics 13, 171-187),
+    so the whirl and the losses consume the power of the torque. A weak motor may get stuck at a critical
+    speed (Sommerfeld 1902).
 
-    The shaft does not twist, and the torque follows its tilt. The friction of films does not brake it: what
-    resists is part of the torque.
+    The shaft does not twist, and the torque follows its tilt. The friction of films does not brake the rotor:
+    include it in the torque.
 
     Parameters
     ----------
     rotor : RigidRotor or FlexibleRotor
-        Its speed is that at t = 0, a number.
+        The rotor; its speed, a number, is that at t = 0.
     inertia : float [kg m2]
-        Polar moment of inertia of all that turns, about the axis of the shaft.
+        Polar moment of inertia of all rotating parts.
     torque : DriveTorque
-        As a `LinearMotor`.
+        Driving torque, such as a `LinearMotor`.
 
     Raises
     ------

@@ -119,9 +119,9 @@ def wired(rotor: Model, bearings: Bearings, name: str) -> list[Mount]:
     ----------
     rotor : Model
     bearings : mapping of str to Reaction
-        By station; the empty name is that of a rotor with one journal.
+        Bearings by station; the empty name is that of a rotor with one journal.
     name : str
-        Of the argument, for messages.
+        Name of the argument, for messages.
 
     Raises
     ------
@@ -156,18 +156,18 @@ def wired(rotor: Model, bearings: Bearings, name: str) -> list[Mount]:
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class MountedRotor(AroundRotor):
-    """A rotor whose stations of the given names rest in bearings; `mount` makes it.
+    """A rotor with bearings in some of its stations; `mount` makes it.
 
-    The forces of these bearings are no longer inputs, but outputs, of the same names. States and further
-    outputs of a bearing get the name of its station in front, as `left_wear_0`.
+    The forces of these bearings are no longer inputs but outputs, with the same names. Names of states and
+    further outputs of a bearing begin with the name of its station, for example `left_wear_0`.
 
     Parameters
     ----------
     rotor : Dynamic
-        With inputs and outputs of each station by name, as `ShaftRotor`.
+        Rotor with inputs and outputs of each station by name, as `ShaftRotor`.
     stations : tuple of str
     bearings : tuple of Reaction
-        One for each of the stations; one with states is a Dynamic too, as `BushReaction`.
+        One bearing for each of the stations; one with states is a Dynamic model too, such as `BushReaction`.
 
     Raises
     ------
@@ -248,7 +248,7 @@ class MountedRotor(AroundRotor):
         return self.joined(t, whole, u, parts)
 
     def joined(self, t: float, whole: Array, u: ArrayLike, parts: Sequence[Linearization]) -> Linearization:
-        """Return the derivatives of rotor and bearings, those of the bearings given."""
+        """Return the derivatives of rotor and bearings for given derivatives of the bearings."""
         own, sensed = self._sensed(t, whole)[1:]
         inputs = self._inputs(self._forces(t, own, self._pushes(t, whole, sensed), u), u)
         rotor, masses = self.rotor.linearization(t, own, inputs), None
@@ -351,10 +351,10 @@ def join(
     Parameters
     ----------
     rotor : Linearization
-        Without feedthrough to the outputs that reactions take.
+        Rotor without feedthrough to the outputs that reactions take.
     mounts : sequence of Mount
     parts : sequence of Linearization
-        Of the reactions, over what each feels.
+        Parts of the reactions, over what each feels.
     free : sequence of int
         Inputs of the rotor that stay inputs; one that takes the force of a reaction is a load beside it.
     masses : ndarray, optional [kg]
@@ -440,16 +440,17 @@ def block_diagonal(blocks: Sequence[Array]) -> Array:
 def mount(rotor: Dynamic, bearings: Bearings) -> MountedRotor:
     """Return a rotor with bearings in some of its stations.
 
-    With one station left, the one without a name, `simulate`, `cosimulate` and `closed_loop` take the result
-    and the bearing of that station; with none left it is a Dynamic model without inputs.
+    If only the station without a name is left, `simulate`, `cosimulate` and `closed_loop` accept the result
+    together with the bearing of that station. If none is left, it is a Dynamic model without inputs.
 
     Parameters
     ----------
     rotor : Dynamic
-        Its outputs do not depend on the forces, as is so for every rotor here.
+        The rotor; its outputs must not depend directly on the forces, as is true for every rotor of
+        rotorfilm.
     bearings : mapping of str to Reaction
-        By the name of the station. One whose temperature is left to the balance of its heat gets it as a
-        state.
+        Bearings by the name of the station. If a heat balance determines the temperature of a bearing, the
+        temperature becomes a state.
 
     Raises
     ------
@@ -490,7 +491,7 @@ def system_kernel(
     rotor : Dynamic
         A `FlexibleRotor` or a `RigidRotor`.
     bearings : mapping of str to Reaction
-        By station, at least one.
+        Bearings by station, at least one.
     carried, free : sequence of int
         Inputs of the rotor that are forces of the bearings, and the others.
     motion : sequence of int

@@ -36,21 +36,21 @@ from .structure import (
 class ReducedRotor(FlexibleRotor):
     """A rotor in the coordinates of Craig and Bampton (1968), AIAA J. 6, 1313-1319: a Dynamic model.
 
-    The coordinates of a plane are of three kinds. They are the displacements of journals and housings (with
-    the static shape of the rotor), the static shapes under weight and unbalance, and the lowest modes of the
-    rotor with all of these held. Inputs and outputs are those of the rotor; static deflections and the total
-    mass are exact. `reduce_rotor` chooses the number of modes.
+    The coordinates of a plane are the displacements of journals and housings (with the static shape of the
+    rotor), the static shapes under weight and unbalance, and the lowest modes of the rotor with all of these
+    fixed. Inputs and outputs are those of the rotor; static deflections and the total mass are exact.
+    `reduce_rotor` chooses the number of modes.
 
     Parameters
     ----------
     rotor : FlexibleRotor
-        With stations that hold it, so at least two unless it is on the ground otherwise.
+        Rotor that its stations hold: at least two, unless other springs to the ground hold it.
     modes : int
         Modes kept in each plane.
     speed : float or SpeedProfile [rad/s]
-        In place of that of the rotor.
+        Speed that replaces that of the rotor.
     gravity : tuple of two floats [m/s2]
-        Must be that of the rotor.
+        Gravity; it must be that of the rotor.
     initial : tuple of float
         State at t = 0; empty for a straight shaft at rest.
 
@@ -143,14 +143,14 @@ class Reduction(Readable):
     ----------
     rotor : ReducedRotor
     error : float [1]
-        Largest relative error over the frequencies of what the bearings feel: the dynamic stiffness of the
-        rotor at its journals, and the forces of its unbalance on journals that are held. Found by comparison
-        with the whole rotor, at rest and at the speed of the highest frequency.
+        Largest relative error at the bearings over all frequencies: of the dynamic stiffness of the rotor at
+        its journals, and of the unbalance forces on fixed journals. It is found by comparison with the whole
+        rotor, at rest and at the speed of the highest frequency.
     frequency : float [rad/s]
         Highest frequency, and speed, of the comparison.
     work : dict of str to int
-        Eigenproblems of the rotor held at its journals, one for each number of modes that was tried;
-        solutions at one frequency and speed, of the whole rotor and of those.
+        Counters: eigenproblems of the rotor with fixed journals, one for each number of modes that was tried;
+        solutions at one frequency and speed, of the whole and of the reduced rotors.
     """
 
     rotor: ReducedRotor
@@ -166,7 +166,7 @@ def reduce_rotor(rotor: FlexibleRotor, *, frequency: float, tolerance: float = 1
     Parameters
     ----------
     rotor : FlexibleRotor
-        As `ShaftRotor`; its stations hold it.
+        Rotor such as a `ShaftRotor`, held by its stations.
     frequency : float [rad/s]
         Highest frequency and speed of interest.
     tolerance : float [1]
@@ -235,26 +235,26 @@ def _felt(structure: Structure, s: complex, speed: float) -> _Felt:
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class ModallyDampedRotor(FlexibleRotor):
-    """A rotor with damping ratios of its lowest undamped modes in each plane: a Dynamic model.
+    """A rotor with prescribed damping ratios of its lowest undamped modes in each plane.
 
         C = sum over the modes of 2 ratio w M u u' M,  u' M u = 1
 
-    added to the damping that it has; it does not turn with the shaft. Modes beyond those named keep what they
-    have. At rest on bearings of the stiffness named the ratios are exact; with gyroscopic effect and on other
-    bearings the modes couple.
+    is added to the existing damping; it does not rotate with the shaft. Other modes keep their damping. The
+    ratios are exact at rest on bearings of the given stiffness; with gyroscopic effect and on other bearings
+    the modes couple.
 
     Parameters
     ----------
     rotor : FlexibleRotor
     damping_ratios : tuple of float [1]
-        From the lowest mode on.
+        Damping ratios from the lowest mode on.
     bearing_stiffness : float [N/m]
-        Of each station, in the modes; 0 for those of the free shaft, whose motions without springs count as
-        the first.
+        Stiffness at each station for these modes; 0 for the free shaft, whose rigid-body motions count as the
+        first modes.
     speed : float or SpeedProfile [rad/s]
-        In place of that of the rotor.
+        Speed that replaces that of the rotor.
     gravity : tuple of two floats [m/s2]
-        Must be that of the rotor.
+        Gravity; it must be that of the rotor.
     initial : tuple of float
         State at t = 0; empty for a straight shaft at rest.
 

@@ -53,7 +53,7 @@ NATIVE_PARAMETERS = {
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class RigidRotor(Turning):
-    """One journal's share of a rigid rotor that moves without tilting: a Dynamic model.
+    """The share of a rigid rotor that one journal carries; it moves without tilting.
 
     m a = film force + m gravity + static force + unbalance force. The mass center lies at
     q + (unbalance/m) (cos p, sin p), p = angle(t) + unbalance_angle, off the journal center q; two time
@@ -77,7 +77,7 @@ class RigidRotor(Turning):
     static_force : tuple of two floats [N]
         Constant external force on the journal besides the weight.
     position, velocity : tuple of two floats [m], [m/s]
-        Of the journal center at t = 0.
+        Position and velocity of the journal center at t = 0.
 
     Raises
     ------
@@ -151,7 +151,7 @@ class RigidRotor(Turning):
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this rotor; None for a subclass, which may differ.
 
-        Its parameters are those of the rotor by component; the speed is one, fixed, where it is constant.
+        Its parameters are those of the rotor, one for each component. A constant speed is a fixed parameter.
         """
         if type(self) is not RigidRotor:
             return None
@@ -231,13 +231,13 @@ class RigidShaft(FlexibleRotor):
         [rad] of each unbalance.
     gravity : tuple of two floats [m/s2]
     initial : tuple of float
-        State at t = 0: x, tilt_x, y, tilt_y of the mass center, z if it is axial, and their rates; empty
-        for rest at zero. Here tilt_x, tilt_y are the tilts dx/dz, dy/dz in both planes.
+        State at t = 0: x, tilt_x, y, tilt_y of the mass center, z if it is axial, and their rates. Empty for
+        rest at zero. Here tilt_x, tilt_y are the tilts dx/dz, dy/dz in both planes.
     axial : bool
-        Whether it also moves along z: every station has z, vz and force_z then.
+        Whether it also moves along z. Then every station has z, vz and force_z.
     feels_tilt : bool
-        Whether bearings may also resist its tilt: every station has tilt_x, tilt_y about +x and +y, their
-        rates and moment_x, moment_y then.
+        Whether bearings may also resist its tilt. Then every station has tilt_x, tilt_y about +x and +y,
+        their rates, moment_x and moment_y.
 
     Raises
     ------
@@ -308,7 +308,7 @@ class RigidShaft(FlexibleRotor):
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class JeffcottRotor(FlexibleRotor):
-    """One journal's share of a disk on an elastic shaft in two equal bearings: a Dynamic model.
+    """One half of a symmetric Jeffcott rotor (a disk on an elastic shaft in two equal bearings).
 
     With u = x + i y of the disk and v of the journal,
 
@@ -334,7 +334,7 @@ class JeffcottRotor(FlexibleRotor):
     initial : tuple of float
         State at t = 0; empty for a straight shaft at rest.
     disk_station : str
-        Name of a station at the disk, as for a ring that it rubs in; empty for none.
+        Name of a station at the disk, for example for a rub ring; empty for none.
 
     Raises
     ------

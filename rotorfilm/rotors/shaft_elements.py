@@ -55,15 +55,15 @@ class ShaftElement:
     material : ElasticMaterial
     shear_coefficient : float or None [1]
         kappa; by default that of Cowper for a round section (in the middle of a cone), infinite for a section
-        that does not shear.
+        without shear deformation.
     end_outer_diameter, end_inner_diameter : float or None [m]
         Diameters at the second node of a cone; None for the same as at the first.
     axial_force : float [N]
         Static tension; negative for compression.
     torque : float [N m]
-        Static torque, which follows the tilt of the shaft.
+        Static torque, whose axis follows the tilt of the shaft.
     mass_damping, stiffness_damping : float [1/s, s]
-        Proportional damping alpha M + beta K of this piece alone against the ground, besides that of the
+        Proportional damping alpha M + beta K of this piece against the ground, in addition to that of the
         rotor.
 
     Raises
@@ -116,7 +116,7 @@ class ShaftElement:
         return any(start != end for start, end in self._ends)
 
     def split(self, pieces: int) -> tuple[ShaftElement, ...]:
-        """Return this piece of shaft as so many equally long elements."""
+        """Return this piece of shaft as several elements of equal length."""
         if pieces < 1:
             raise InputError(f"pieces must be at least 1, got {pieces!r}")
         short = replace(self, length=self.length / pieces)
@@ -135,7 +135,7 @@ class ShaftElement:
         )
 
     def section(self) -> Section:
-        """Return stiffness and inertia of the cross section: of a cone, along it."""
+        """Return stiffness and inertia of the cross section, for a cone along its length."""
         places = POINTS if self.tapered else 0.0
         outer, inner = (start + (end - start) * places for start, end in self._ends)
         kappa = self.shear_coefficient
@@ -158,12 +158,12 @@ class ShaftElement:
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class LayeredElement:
-    """Pieces of shaft inside each other, as a shaft and its sleeve: one deflection and tilt for all.
+    """Concentric pieces of shaft, such as a shaft and its sleeve, with the same deflection and tilt.
 
     Parameters
     ----------
     layers : tuple of ShaftElement
-        Of equal length and proportional damping.
+        Layers of equal length and proportional damping.
     """
 
     layers: tuple[ShaftElement, ...]
@@ -219,13 +219,13 @@ class Coupling:
     Parameters
     ----------
     stiffness : float [N/m]
-        Against deflection of one side from the other.
+        Stiffness against relative deflection of both sides.
     tilt_stiffness : float [N m/rad]
-        Against tilt of one side from the other.
+        Stiffness against relative tilt of both sides.
     axial_stiffness : float or None [N/m]
-        Along the shaft; for its axial modes.
+        Axial stiffness; needed for axial modes.
     twist_stiffness : float or None [N m/rad]
-        About the shaft; for its torsional modes.
+        Torsional stiffness; needed for torsional modes.
     """
 
     stiffness: float
@@ -281,8 +281,8 @@ class BeamMatrices(NamedTuple):
     Attributes
     ----------
     mass, polar, stiffness : ndarray
-        Of translation and of rotation about a diameter; of rotation about the axis, as it acts on the tilt;
-        of bending and shear. Entries are per w [m] and theta [rad].
+        Mass, polar inertia and stiffness of translation and of rotation about a diameter; of rotation about
+        the axis, as it acts on the tilt; of bending and shear. Entries are per w [m] and theta [rad].
     geometric : ndarray
         Stiffness per axial tension [1/N of the above].
     twist : ndarray
@@ -339,10 +339,10 @@ class Beam(Protocol):
 
 @dataclass(frozen=True)
 class ClassicalBeam:
-    """The element with two nodes that is exact under end forces, as textbooks and most codes have it.
+    """The classical beam element with two nodes, exact under end forces, as in textbooks and most codes.
 
-    Shear and moment between the ends follow the end forces only, so that the eigenvalues of a shaft with
-    shear converge at second order in the end; without shear at fourth order. Przemieniecki (1968), Nelson
+    Shear and moment between the ends follow from the end forces only. So the eigenvalues of a shaft with
+    shear converge at second order, and without shear at fourth order. See Przemieniecki (1968), Nelson
     (1980), J. Mech. Des. 102, 793-803.
     """
 
@@ -351,7 +351,7 @@ class ClassicalBeam:
 
     @property
     def internal(self) -> int:
-        """No degree of freedom inside."""
+        """No internal degrees of freedom."""
         return 0
 
     def shapes(self, length: float, shear_ratio: float) -> list[tuple[Polynomial, Polynomial]]:
@@ -377,10 +377,10 @@ class ClassicalBeam:
 
 @dataclass(frozen=True)
 class FourthOrderBeam:
-    """The classical element with two degrees of freedom inside, for eigenvalues of fourth order with shear.
+    """A beam element with two internal degrees of freedom: eigenvalues of fourth order, also with shear.
 
-    They are the responses of the element, clamped at both ends, to an even transverse load and to an even
-    moment: what inertia exerts between the ends, to leading order.
+    The internal shapes are the responses of the element, clamped at both ends, to a uniform transverse load
+    and to a uniform moment. These are the inertia loads between the ends, to leading order.
     """
 
     order: ClassVar[int] = 4
@@ -388,7 +388,7 @@ class FourthOrderBeam:
 
     @property
     def internal(self) -> int:
-        """Two degrees of freedom inside: an even load and an even moment."""
+        """Two internal degrees of freedom, for a uniform load and a uniform moment."""
         return 2
 
     def shapes(self, length: float, shear_ratio: float) -> list[tuple[Polynomial, Polynomial]]:
@@ -509,10 +509,10 @@ class Disk:
     diametral_inertia, polar_inertia : float [kg m2]
         Moments of inertia about a diameter and about the axis.
     skew : float [rad]
-        By which its axis is out of that of the shaft; it excites as an unbalance does.
+        Angle between the axis of the disk and that of the shaft; it excites vibration like an unbalance.
     skew_angle : float [rad]
-        Angle from +x at t = 0, positive about +z, of the plane in which its axis leans: where it leans
-        towards in the direction of +z.
+        Angle from +x at t = 0, positive about +z, of the plane in which the disk axis is inclined, in the
+        direction in which it leans for rising z.
     """
 
     node: int
@@ -557,16 +557,16 @@ class Disk:
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class Support:
-    """A housing on springs: what carries a bearing, in series with it.
+    """An elastic support of a bearing housing, in series with the bearing.
 
     Parameters
     ----------
     mass : float [kg]
-        Of the housing.
+        Mass of the housing.
     stiffness : float [N/m] or 2 x 2 numbers
-        From the housing to the ground; one number is the same in both directions.
+        Stiffness from the housing to the ground; one number is the same in both directions.
     damping : float [N s/m] or 2 x 2 numbers
-        Beside that stiffness.
+        Damping in parallel with that stiffness.
 
     Raises
     ------
@@ -587,7 +587,7 @@ class Support:
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class TiltSpring:
-    """Springs and dampers from the ground against the tilt of a node, as of a long bearing or a clamp.
+    """Springs and dampers against the tilt of a node, for example of a long bearing or a clamp.
 
     Parameters
     ----------
@@ -617,18 +617,18 @@ class TiltSpring:
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class Station:
-    """Where a bearing acts: a journal at a node, in a housing that is rigid unless it has a support.
+    """A bearing location: a journal at a node, in a housing that is rigid unless it has a support.
 
     Parameters
     ----------
     node : int
     name : str
-        Prefix of its signals, as `left` in `left_force_x`; empty for one station at most, whose signals then
-        are those that `simulate` and `cosimulate` connect with a film.
+        Prefix of its signals, such as `left` in `left_force_x`. At most one station may have an empty name;
+        `simulate` and `cosimulate` connect a single film with it.
     support : Support, optional
-        Its housing moves along x and y and does not tilt.
+        Elastic support of the housing, which moves along x and y and does not tilt. None for a rigid housing.
     feels_tilt : bool
-        Whether the bearing here may also resist the tilt of the shaft, as `MomentCarryingBalls` do.
+        Whether the bearing may also resist the tilt of the shaft, as `MomentCarryingBalls` do.
     """
 
     node: int

@@ -56,20 +56,20 @@ from .structure import (
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class ShaftRotor(Plottable, FlexibleRotor):
-    """A shaft that bends and shears, with rotary inertia and gyroscopic effect: a Dynamic model.
+    """A flexible shaft (Timoshenko beam) with rotary inertia and gyroscopic effect: a Dynamic model.
 
-    Node i is where element i begins; the last element ends at the last node. z runs along the shaft. The
-    tilt of a plane is theta = dw/dz of a section that does not shear.
+    Node i is where element i begins; the last element ends at the last node. z runs along the shaft. In each
+    plane the tilt is theta = dw/dz, for a section without shear deformation.
 
     Parameters
     ----------
     elements : tuple of ShaftElement, LayeredElement and Coupling
-        From the first node to the last.
+        Elements from the first node to the last.
     speed : float or SpeedProfile [rad/s]
         Angular speed about +z.
     stations : tuple of Station
-        Where bearings act; each is an input force_x, force_y and an output x, y, vx, vy. One that feels
-        tilts has moment_x, moment_y and tilt_x, tilt_y, tilt_rate_x, tilt_rate_y besides.
+        Bearing locations. Each has inputs force_x, force_y and outputs x, y, vx, vy. With `feels_tilt` it
+        also has moment_x, moment_y and tilt_x, tilt_y, tilt_rate_x, tilt_rate_y.
     disks : tuple of Disk
     tilt_springs : tuple of TiltSpring
         Springs against the tilt of nodes, besides what acts at the stations.
@@ -78,37 +78,36 @@ class ShaftRotor(Plottable, FlexibleRotor):
         Nodes whose displacement is an output.
     internal_damping : float [s]
         Damping of the rotating shaft: stress = E (strain + internal_damping * strain rate). It acts on
-        elements and couplings and drives forward whirl slower than the shaft.
+        elements and couplings, and destabilizes forward whirl that is slower than the shaft.
     mass_damping, stiffness_damping : float [1/s, s]
         Proportional damping alpha M + beta K of shaft and disks against the ground: it does not turn with the
         shaft. A mode w of a free shaft has the damping ratio
         `alpha / (2 w) + beta w / 2`.
     loss_factor : float [1]
-        Hysteresis of the rotating shaft: bent to and fro at any frequency in its own frame, stress leads
-        strain by the angle with this tangent. For modes, thresholds and unbalance response only; over time
-        it raises InputError.
+        Structural (hysteretic) damping of the rotating shaft: in its own frame, stress leads strain by the
+        angle with this tangent, at any frequency. It is used for modes, thresholds and unbalance response
+        only; in time integration it raises InputError.
     gravity : tuple of two floats [m/s2]
     beam : Beam
-        The element: `FourthOrderBeam()`, or `ClassicalBeam()` as published rotors were computed with.
+        Beam element: `FourthOrderBeam()`, or `ClassicalBeam()`, with which most published rotors were
+        computed.
     initial : tuple of float
         State at t = 0; empty for a straight shaft at rest.
     axial : bool
-        Whether it also moves and stretches along z: every station has z, vz and force_z then. Housings do
-        not; gravity has no part along z. Couplings need an `axial_stiffness`.
+        Whether it also moves and stretches along z. Then every station has z, vz and force_z. Housings do not
+        move along z, and gravity does not act along z. Couplings need an `axial_stiffness`.
     torsional : bool
-        Whether it also twists, besides the rotation that the speed says: every station has twist, twist_rate
-        and torque then. Couplings need a `twist_stiffness`.
+        Whether it also twists, in addition to its rotation. Then every station has twist, twist_rate and
+        torque. Couplings need a `twist_stiffness`.
 
     Raises
     ------
     InputError
         If an argument breaks its rule; of a part that is on no node, the message names the node.
 
-    Notes
-    -----
-    Along the axis and about it a straight shaft does not feel its bending and its rotation: what joins them
-    are the bearings. Internal damping and hysteresis of the rotating shaft differ there: the first is plain
-    damping, the second is left out.
+    Notes ----- Axial and torsional motion of a straight shaft is independent of its bending and its rotation;
+    only bearings couple them. For these motions internal damping acts as ordinary damping, and hysteresis is
+    neglected.
 
     Examples
     --------
@@ -150,7 +149,7 @@ class ShaftRotor(Plottable, FlexibleRotor):
 
     @property
     def positions(self) -> Array:
-        """Where the nodes are along the shaft, shape (n_nodes,) [m]."""
+        """Positions of the nodes along the shaft, shape (n_nodes,) [m]."""
         return np.cumsum([0.0, *(element.length for element in self.elements)])
 
     @property
@@ -168,8 +167,9 @@ class ShaftRotor(Plottable, FlexibleRotor):
     def assembled(self) -> Structure:
         """Return the matrices of the rotor.
 
-        Coordinates of a plane: deflection and tilt of node 0, 1, ..., those inside the elements, and the
-        displacement of each support. Along the axis and about it: those of the nodes and inside the elements.
+        Coordinates of a plane: deflection and tilt of node 0, 1, ..., the internal ones of the elements, and
+        the displacement of each support. For axial and torsional motion: those of the nodes and the internal
+        ones of the elements.
         """
         structure = self._planar()
         if self.axial:
@@ -407,7 +407,7 @@ class ShaftModel:
     Attributes
     ----------
     shaft : ShaftRotor
-        With the elements of the file.
+        Shaft with the elements of the file.
     beam : Beam
     pieces : int
         Elements for one of the file.

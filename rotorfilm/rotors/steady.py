@@ -31,13 +31,13 @@ class SteadyRotor(AroundRotor):
     """A rotor at constant speed: a Dynamic model with a kernel in the C library.
 
     x' = A x + B u, y = C x with the states of the rotor, the direction of its unbalance and a state that
-    stays at 1. The kernel steps by the exact solution under held forces, however stiff the shaft; its cost
-    goes with the square of the number of states, so a `ReducedRotor` is what to give it.
+    stays at 1. The kernel uses the exact solution under held forces, however stiff the shaft is. Its cost
+    grows with the square of the number of states, so give it a `ReducedRotor`.
 
     Parameters
     ----------
     rotor : FlexibleRotor or RigidRotor
-        With a constant speed; inputs, outputs and initial state are its own.
+        Rotor with a constant speed; inputs, outputs and initial state are its own.
 
     Raises
     ------

@@ -67,7 +67,7 @@ class Structure(NamedTuple):
     unbalance : ndarray, shape (N, 2)
         Force per pair (w^2 cos p + a sin p, w^2 sin p - a cos p), angle p and its second derivative a.
     coordinates : tuple of Coordinate, length n
-        Of one plane.
+        Coordinates of one plane.
     readouts : tuple of Readout
     supports : tuple of int, places of the housings among the coordinates of a plane
     housings : ndarray, shape (2 n_stations, N), or None
@@ -75,7 +75,7 @@ class Structure(NamedTuple):
     hysteresis : ndarray, shape (n, n), or None
         Loss factor times stiffness of the rotating shaft in one plane [N/m].
     tilts : ndarray, shape (2 n_stations, N), or None
-        Of the shaft about +x, +y, at stations that feel it.
+        Tilts of the shaft about +x, +y, at stations that feel it.
     others : tuple of Coordinate, length N - 2 n
         Beyond both planes; their names have no {}.
     axial, twist : ndarray, shape (n_stations, N), or None
@@ -464,11 +464,11 @@ def _mapped(
     ----------
     full : Structure
     square : callable
-        From a matrix (N, N) to that in the other coordinates.
+        Square from a matrix (N, N) to that in the other coordinates.
     row : callable
-        From rows (..., N) to those over the other coordinates.
+        Row from rows (..., N) to those over the other coordinates.
     fields : object
-        Of the result, in place of what these make.
+        Fields of the result, in place of what these make.
     """
     squares = ("mass", "damping", "gyroscopic", "stiffness", "circulation")
     stations = ("journals", "housings", "tilts", "axial", "twist")
@@ -540,7 +540,7 @@ def projected(full: Structure, shapes: Array) -> Structure:
     ----------
     full : Structure
     shapes : ndarray, shape (n, n_shapes)
-        Over the n coordinates of a plane.
+        Shapes over the n coordinates of a plane.
     """
     basis = whole_basis(shapes, len(full.others))
     return _mapped(
@@ -666,7 +666,7 @@ class AroundRotor:
     Attributes
     ----------
     rotor : Dynamic
-        With inputs force_x, force_y and outputs x, y, vx, vy of each station.
+        Rotor with inputs force_x, force_y and outputs x, y, vx, vy of each station.
     stations : tuple of str
         The empty name is that of a rotor with one journal.
     """

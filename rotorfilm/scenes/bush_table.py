@@ -73,7 +73,7 @@ class BushTable(Taking):
     melting : MeltingRule
         In a file "shared" or "local".
     nodes : int
-        Of the worn profile.
+        Nodes of the worn profile.
     """
 
     material: Annotated[str, one_of(MATERIALS)] = "f4k20"

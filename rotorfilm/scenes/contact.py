@@ -35,9 +35,9 @@ class ContactTable(Taking):
     Parameters
     ----------
     mass : float [kg]
-        Of the ball; 0 where it follows its load without inertia.
+        Mass of the ball; 0 where it follows its load without inertia.
     load : float [N]
-        Of one ball, about which its law is made.
+        Load of one ball, about which its law is made.
     cells : int
         Cells along each side of the film's rectangle.
     order : int
@@ -45,9 +45,9 @@ class ContactTable(Taking):
     roelands, compressible : bool
         Laws of viscosity and density, as in `RollingBall.contact`.
     angles : tuple of float [rad]
-        Of the balls that carry a journal, from +x towards +y; empty for a ball on a plane.
+        Angles of the balls that carry a journal, from +x towards +y; empty for a ball on a plane.
     preload : float [N]
-        Of each of these balls while the journal is in the center.
+        Preload of each of these balls while the journal is in the center.
     """
 
     mass: float = 0.0
@@ -99,7 +99,8 @@ class DrivenBall:
         f(t); the ball has rested until t = 0.
     duration : float [1]
     shortest_period : float [1]
-        Of what the ball does: of its natural motion, or of the load; 0 for a ball without mass under a step.
+        Shortest period of what the ball does: of its natural motion, or of the load; 0 for a ball without
+        mass under a step.
     """
 
     load: contacts.StepLoad | contacts.SineLoad
@@ -327,7 +328,7 @@ def contact_numbers(
     Parameters
     ----------
     ball : RollingBall
-        With its load and speed.
+        Ball with its load and speed.
     oil : Lubricant
     roelands, compressible : bool
         What the film takes into account.
@@ -415,7 +416,7 @@ class ContactAnswer(Readable):
     moes : dict of str to float
         M and L.
     approach : float [m]
-        Of the ball's center beyond first touch, negative in contact.
+        Approach of the ball's center beyond first touch, negative in contact.
     central_film, minimum_film : float [m]
         Film thickness at the center, and the smallest.
     maximum_pressure : float [Pa]
@@ -424,7 +425,7 @@ class ContactAnswer(Readable):
     stiffness, damping : float [N/m], [N s/m]
         -dF/dz at rest and in slow motion.
     static_error, damping_error : float [1]
-        Of the reduced law.
+        Static error and damping error of the reduced law.
     published : dict of str to float [m]
         Film thicknesses by published formulas.
     """
@@ -567,7 +568,7 @@ def run_contact(scene: Scene, *, full: bool = False, report: Report = silent) ->
     Parameters
     ----------
     scene : Scene
-        With a contact; `operation.duration` is how long it is followed, if it is given.
+        Scene with a contact; `operation.duration` is how long it is followed, if it is given.
     full : bool
         Whether by the full film, in place of its reduced law. An interruption returns what there is.
     report : callable

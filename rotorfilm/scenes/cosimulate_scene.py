@@ -122,7 +122,7 @@ def run_scene(
     Parameters
     ----------
     scene : Scene
-        With a rotor.
+        Scene with a rotor.
     scheme : Scheme or Auto
     report : callable, optional
         Told how far the job is.
@@ -194,9 +194,9 @@ def critical_macro_angle(scene: Scene, scheme: cosim.Scheme | None = None) -> fl
     Parameters
     ----------
     scene : Scene
-        With a rotor.
+        Scene with a rotor.
     scheme : Scheme, optional
-        As in `critical_macro_step`.
+        Scheme as in `critical_macro_step`.
     """
     rotor, bearing = at_rest_on_film(scene)
     limit = cosim.critical_macro_step(rotor, bearing, state=rotor.initial_state, scheme=scheme).macro_step

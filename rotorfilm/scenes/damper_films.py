@@ -66,8 +66,8 @@ class DamperFilm:
         The damper without springs that conserves its oil, where the scene has its supply: it is richer than
         all of these, and judged itself by one on twice as fine a grid.
     frequency : float or None [rad/s]
-        With which the rotor whirls, of a film between seals or with inertia: what the richest one leaves out
-        is estimated at that, and has no bound.
+        Frequency with which the rotor whirls, of a film between seals or with inertia: what the richest one
+        leaves out is estimated at that, and has no bound.
     """
 
     name: str
@@ -473,11 +473,11 @@ def rotor_remarks(
     ----------
     table : DamperTable
     damper : PorousDamper
-        With a film that is quick enough for hundreds of orbits.
+        Damper with a film that is quick enough for hundreds of orbits.
     stiffness : float [N/m]
-        Of its springs.
+        Stiffness of its springs.
     rotor : RigidRotor
-        With the unbalance in question, 0 if that is what is asked for.
+        Rotor with the unbalance in question, 0 if that is what is asked for.
     oil : Lubricant
     steady : bool
         Whether its orbit is asked for, so that it matters how many there are.
@@ -525,7 +525,7 @@ class DamperScene(NamedTuple):
     Attributes
     ----------
     rotor : RigidRotor
-        At the center of the damper, or its offset, at rest.
+        Rotor at the center of the damper, or its offset, at rest.
     support : PorousDamper, Parallel or JFODamper
     start : float [s]
         When the excitation begins: until then nothing moves, and the run counts from there.

@@ -33,7 +33,7 @@ class SealsTable:
     flow, pressure : float or None [m3/s], [Pa]
         Instead: of a leak test, out of one end.
     uncertainty : float [1]
-        Of the leakage, relative; an answer then says how far it may move.
+        Uncertainty of the leakage, relative; an answer then says how far it may move.
     """
 
     leakage: float | None = None
@@ -99,17 +99,18 @@ class DamperTable(Taking):
     feed : RadialFeed, AxialFeed or None
         Besides a supply pressure at a vented back of the cage.
     stiffness : float [N/m]
-        Of the retainer springs, which carry the static load; 0 for none.
+        Stiffness of the retainer springs, which carry the static load; 0 for none.
     supply : DamperSupply or None
-        Of a solid cage and a film that ruptures: then the oil is conserved in it, unless a film law is named.
+        Supply of a solid cage and a film that ruptures: then the oil is conserved in it, unless a film law is
+        named.
     density : float [kg/m3]
-        Of the oil, whose inertia then is part of the answer; 0 without inertia.
+        Density of the oil, whose inertia then is part of the answer; 0 without inertia.
     seals : SealsTable or None
-        At both ends; None for open ends.
+        Seals at both ends; None for open ends.
     offset : (float, float) [m]
         Static place of the rotor off the center of the film, where the springs hold it.
     feed_flow : float or None [m3/s]
-        Of oil fed to the film, which says whether air is drawn in.
+        Feed flow of oil fed to the film, which says whether air is drawn in.
     air_fraction : float [1]
         Measured volume of air per volume of oil and air at ambient pressure: damping and mass are the least
         that it leaves.

@@ -49,9 +49,9 @@ class RunningBearing:
     oil : str
         What was taken for the oil.
     supply_temperature : float [K]
-        Of the fresh oil, which is as viscous as the bearing was said to be.
+        Supply temperature of the fresh oil, which is as viscous as the bearing was said to be.
     temperature : float [K]
-        Of the film, at which its heat balances.
+        Temperature of the film, at which its heat balances.
     eccentricity_ratio : float [1]
     power_loss : float [W]
     """
@@ -75,7 +75,7 @@ def running_bearing(
     ----------
     bearing : JournalBearing
     load : (float, float) [N]
-        On the journal.
+        Load on the journal.
     speed : float [rad/s]
     """
     if bearing.viscosity is None:
@@ -170,7 +170,7 @@ class CouplingStudy(Readable):
     monolithic : Trajectory
         Rotor and film integrated as one system.
     runs : tuple of CoupledRun
-        From the shortest macro step to the longest.
+        Runs from the shortest macro step to the longest.
     observed_order : float or None [1]
         Order of convergence in the macro step, from the two shortest; None if one was refused.
     """
@@ -323,7 +323,7 @@ class DemoResult(Readable):
     coupling : CouplingStudy
         Coupled runs beside the monolithic one.
     attitude_angle : dict of str to ndarray [rad]
-        By film, at the eccentricity ratios of `stability`.
+        Attitude angle by film, at the eccentricity ratios of `stability`.
     stability : StudyResult
         Whirl threshold by film.
     accuracy : StudyResult
@@ -367,7 +367,7 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
     folder : Path
         Made if absent.
     scene : Scene
-        With a rotor, and a bearing of length/diameter 0.1 to 4, where all films of the ladder exist.
+        Scene with a rotor, and a bearing of length/diameter 0.1 to 4, where all films of the ladder exist.
     report : callable, optional
         Told how far the job is.
 

@@ -42,7 +42,8 @@ def export_scene(
     Parameters
     ----------
     scene : Scene
-        With a rotor. A flexible one has `operation.speed`, without an operation the first of `shaft.speeds`.
+        Scene with a rotor. A flexible one has `operation.speed`, without an operation the first of
+        `shaft.speeds`.
     folder : Path
         Made if absent.
     version, backend, platforms : str
@@ -96,7 +97,7 @@ def write_models(
     Parameters
     ----------
     parts : mapping of str to (model, mapping)
-        By the names of files and components.
+        Parts by the names of files and components.
     folder : Path
     version, backend, platforms : str
     step, end : float [s]
@@ -123,7 +124,7 @@ def export_scene_system(scene: Scene, path: Path, *, version: str = "2.0", platf
     Parameters
     ----------
     scene : Scene
-        With a rotor.
+        Scene with a rotor.
     path : Path
         Ending in `.ssp`.
     version, platforms : str
@@ -223,7 +224,7 @@ def export_rotor_fmu(
     Parameters
     ----------
     rotor : FlexibleRotor
-        With a constant speed; held by its stations, whose signals are those of the FMU.
+        Rotor with a constant speed, held by its stations. The signals of the FMU are those of the stations.
     path, version, platforms, component
         As in `export_fmu`.
     frequency : float [rad/s]
@@ -231,7 +232,8 @@ def export_rotor_fmu(
     tolerance : float [1]
         Largest error of the reduction.
     bearings : mapping of str to Reaction, optional
-        By station: the FMU begins at rest in them, under their forces; without, straight and without forces.
+        Bearings by station. The FMU starts at the equilibrium in these bearings; without them it starts
+        straight and without forces.
 
     Returns
     -------

@@ -79,7 +79,7 @@ class SceneModels(NamedTuple):
     Attributes
     ----------
     name : str
-        Of the bearing and of its file.
+        Name of the bearing and of its file.
     bearing : Model or Stepped
     rotor : Model
     start : mapping of str to float
@@ -135,7 +135,7 @@ class Remark(NamedTuple):
     number : str
         Which one.
     limit : float
-        Of that number.
+        Limit of that number.
     text : str
         In braces the numbers by their names, and `limit`, with their formats.
     below : bool

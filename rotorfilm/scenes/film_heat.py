@@ -43,7 +43,7 @@ class WarmRest(JournalEquilibrium):
     power_loss : float [W]
     side_flow : float [m^3/s]
     temperature : float [K]
-        Of the oil that leaves at the ends, in the mean.
+        Temperature of the oil that leaves at the ends, in the mean.
     maximum_temperature : float [K]
     supply_temperature : float [K]
     field : ndarray or None [K]
@@ -228,7 +228,7 @@ class HeatError(NamedTuple):
     Attributes
     ----------
     error : float
-        In the unit of the tolerance.
+        Error in the unit of the tolerance.
     bound : bool
         Whether it is at most about that: what the steps change is less than they are unsure of.
     """
@@ -244,7 +244,7 @@ class HeatSteps:
     Attributes
     ----------
     bearing : JournalBearing or JFOFilm
-        On its oil.
+        Bearing on its oil.
     own : WarmRest
         By T1 or T2.
     """
@@ -350,7 +350,7 @@ def heat_error(
     own, start : float or ndarray
         The value, and that where the steps start, which is another one only of T0.
     sample : tuple of five
-        Of `HeatSteps.sample`.
+        Sample of `HeatSteps.sample`.
     distance : callable
         Takes a value and a better one, and returns how far it is off.
     """

@@ -532,7 +532,7 @@ class FilmRest(JournalEquilibrium):
         Of the film that may answer.
     film : FilmCandidate
     bearing : PlanarReaction
-        With one of both films.
+        Bearing with one of both films.
     position : ndarray, shape (2,) [m]
     matrices : callable
         Returns K and C there.
@@ -616,7 +616,7 @@ class FilmRung(FilmCandidate):
     Attributes
     ----------
     reaction : JournalBearing
-        With this film.
+        Reaction with this film.
     rich : JournalBearing
         With the richer one.
     """
@@ -696,7 +696,7 @@ def tangent(
     smooth : bool
         Whether the derivatives in the source are taken from differences, `STEP`: of a film on a grid.
     curvature_distance : float [m]
-        By which the wedge is measured; None for the distance from the center.
+        Curvature distance by which the wedge is measured; None for the distance from the center.
     """
     rest = np.zeros(2)
     slopes = bearing.jacobian(position, rest, speed)[:, :4]
@@ -806,7 +806,7 @@ class Counted(InertialModel):
     Parameters
     ----------
     reaction : PlanarReaction
-        Without states.
+        Reaction without states.
     """
 
     def __init__(self, reaction: PlanarReaction) -> None:

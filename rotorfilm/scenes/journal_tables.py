@@ -392,7 +392,7 @@ class BearingData(Readable):
     slenderness : float [1]
         Length / diameter of the film.
     viscosity : float [Pa s]
-        Of the film, or of fresh oil where the temperature follows from the balance of its heat.
+        Viscosity of the film, or of fresh oil where the temperature follows from the balance of its heat.
     pads : tuple of Pad
         Empty for the full circumference; angles in the bearing frame [rad].
     grooves : tuple of Groove or FeedHole

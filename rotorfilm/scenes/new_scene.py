@@ -33,7 +33,7 @@ def new_scene(name: str) -> str:
     Parameters
     ----------
     name : str
-        Of the table of a bearing or a rotor.
+        Name of the table of a bearing or a rotor.
 
     Raises
     ------

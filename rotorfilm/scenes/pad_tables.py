@@ -131,7 +131,7 @@ class PadData(Readable):
     assembled_clearance : float [m]
         c_b, at the closest place of a centered journal.
     viscosity : float [Pa s]
-        Of the films, or of fresh oil where the temperature follows from the balance of their heat.
+        Viscosity of the films, or of fresh oil where the temperature follows from the balance of their heat.
     """
 
     radius: float
@@ -166,7 +166,7 @@ class TiltingData(PadData):
     pivots : tuple of float [rad]
         Angles in the bearing frame.
     extent : float [rad]
-        Of each pad.
+        Extent of each pad.
     pivot_offset : float [1]
         Share of a pad before its pivot.
     """
@@ -296,8 +296,8 @@ class LobedTable(PadTable):
     preset : str or None
         One of the usual sets of `lobe_set`; give this or `lobes`.
     preload, extent, offset, turned : float or None [1], [rad], [1], [rad]
-        Of a preset: preload of each lobe (0.5), its angle, the place of its least film as a share of its arc,
-        and the angle by which all are turned.
+        Preload, extent, offset and turned of a preset: preload of each lobe (0.5), its angle, the place of
+        its least film as a share of its arc, and the angle by which all are turned.
     lobes : tuple of Lobe
         The pads one by one.
     """
@@ -338,16 +338,17 @@ class DamTable(PadTable):
     Parameters
     ----------
     depth, end, share : float or None [m], [rad], [1]
-        Of the dam in the upper one of the two usual pads; see `pressure_dam_pads`. Give these or `pads`.
+        Depth, end and share of the dam in the upper one of the two usual pads; see `pressure_dam_pads`. Give
+        these or `pads`.
     track_depth, track_share : float or None [m], [1]
-        Of a relief track in the lower pad.
+        Track depth and track share of a relief track in the lower pad.
     groove, preload : float or None [rad], [1]
         Angle of each axial groove (20 deg), preload of both pads (0).
     pads : tuple of RecessedPad
         The pads one by one.
     cells : (int, int) or None
-        Of the film around each pad and along half the length; if the file does not say, 64 x 16, or what a
-        question needs.
+        Cells of the film around each pad and along half the length; if the file does not say, 64 x 16, or
+        what a question needs.
     """
 
     data = DamData

@@ -111,7 +111,7 @@ def made_from(makes: type[T], table: Any, **further: Any) -> T:
     makes : type
         The dataclass.
     table : object
-        Of another dataclass.
+        Table of another dataclass.
     **further
         Values of fields that the table does not have, or that differ there.
     """

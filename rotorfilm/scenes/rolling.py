@@ -87,7 +87,7 @@ class BallTable(Taking):
     internal_clearance : float or None [m]
         Radial internal clearance of a deep groove bearing; give this or the contact angle.
     contact_angle : float or None [rad]
-        Of the unloaded balls of an angular contact bearing.
+        Contact angle of the unloaded balls of an angular contact bearing.
     ball_material, ring_material : RollingMaterial
         "steel", "silicon_nitride", or a table of young_modulus, poisson_ratio and density. Steel unless
         given.
@@ -98,30 +98,30 @@ class BallTable(Taking):
     axial_load : float or None [N]
         External force along z, to which z gives way.
     tilt : (float, float) [rad]
-        Of the shaft about x and y, held.
+        Tilt of the shaft about x and y, held.
     cage_angle : float [rad]
         Where the first ball is.
     damping : float [N s/m]
         Beside the balls.
     arrangement : str or None
-        Of a pair: "back_to_back", "face_to_face", "tandem"; None for one bearing.
+        Arrangement of a pair: "back_to_back", "face_to_face", "tandem"; None for one bearing.
     distance : float or None [m]
-        Of the rows of a pair.
+        Distance of the rows of a pair.
     preload : float or None [N]
-        Of a pair, as clamped at rest, dry and without growth.
+        Preload of a pair, as clamped at rest, dry and without growth.
     inertia : StaticBalls or RunningBalls or RaceControl or None
         "static" balls, "running" ones that friction holds, or "race_control"; if the file does not say,
         running ones, or what a question needs.
     traction_coefficient, slide_to_roll_ratio : float or None [1]
-        Of running balls; None for 0.06 and 0.005.
+        Traction coefficient and slide to roll ratio of running balls; None for 0.06 and 0.005.
     outer_control : bool or None
         Whether balls under race control spin on the inner race only; None for true.
     viscosity : float or None [Pa s]
-        Of the oil on the races; None without oil, or where `[lubricant]` gives it.
+        Viscosity of the oil on the races; None without oil, or where `[lubricant]` gives it.
     pressure_coefficient : float or None [1/Pa]
-        Of that viscosity.
+        Pressure coefficient of that viscosity.
     roughness : float or None [m]
-        Of ball and race together, for the film parameter.
+        Roughness of ball and race together, for the film parameter.
     """
 
     balls: Annotated[int, Count(MOST_BALLS, 3)]
@@ -256,9 +256,9 @@ class PairData(BallData):
     ----------
     arrangement : str
     distance : float [m]
-        Of the rows.
+        Distance of the rows.
     preload : float or None [N]
-        As clamped.
+        Preload as clamped.
     """
 
     arrangement: str
@@ -281,7 +281,7 @@ class RaceOil(NamedTuple):
     Attributes
     ----------
     viscosity : float [Pa s]
-        At ambient pressure and the temperature of the races.
+        Viscosity at ambient pressure and the temperature of the races.
     pressure_coefficient : float [1/Pa]
     """
 
@@ -301,11 +301,11 @@ class BallEquilibriumCase:
         x, y, z [m], tilt_x, tilt_y [rad].
     speed : float [rad/s]
     force : ndarray, shape (2,) [N]
-        On the shaft.
+        Force on the shaft.
     stiffness : ndarray, shape (2, 2) [N/m]
-        Over x and y; z gives way where there is an axial load.
+        Stiffness over x and y; z gives way where there is an axial load.
     axial_stiffness : float [N/m]
-        Over z, with x, y and tilts held.
+        Axial stiffness over z, with x, y and tilts held.
     balls : BallLoads
     """
 

@@ -40,14 +40,14 @@ PRESENT = ("rotary_inertia", "gyroscopic")
 
 @dataclass(frozen=True, kw_only=True)
 class RossRotor:
-    """What a file of ROSS holds.
+    """Rotor and bearings from a file of ROSS.
 
     Attributes
     ----------
     rotor : ShaftRotor
-        With a station for each bearing, in the order of the file, and the classical beam element.
+        Rotor with a station for each bearing, in the order of the file, and the classical beam element.
     bearings : dict of str to PlanarReaction
-        By station: LinearBearing, or TabulatedBearing where the file has a table over speed.
+        Bearings by station: LinearBearing, or TabulatedBearing where the file has a table over speed.
     """
 
     rotor: rotors.ShaftRotor
@@ -61,9 +61,9 @@ def read_ross(path: str | Path, *, speed: float | rotors.SpeedProfile = 0.0) -> 
     Parameters
     ----------
     path : str or Path
-        JSON if it ends in `.json`, as for ROSS.
+        File to read; JSON if it ends in `.json`, otherwise TOML.
     speed : float or SpeedProfile [rad/s]
-        Of the rotor; the file has none.
+        Speed of the rotor; the file has none.
 
     Raises
     ------
@@ -79,8 +79,8 @@ def read_ross(path: str | Path, *, speed: float | rotors.SpeedProfile = 0.0) -> 
     whole length; those of ROSS are tied at the nodes only, which is a little softer on a coarse mesh.
 
     Proportional damping `alpha`, `beta` of the whole rotor becomes that of the `ShaftRotor`, and of its
-    supports; that of shaft elements is theirs, without disks. As in ROSS, that of the rotor is instead of
-    theirs.
+    supports; damping of shaft elements stays with the elements and excludes the disks. As in ROSS, damping of
+    the whole rotor replaces that of the elements.
     """
     file = Path(path)
     form, read = ("JSON", json.loads) if file.suffix.lower() == ".json" else ("TOML", tomllib.loads)
@@ -298,7 +298,7 @@ def to_ross(
     Returns
     -------
     ross.BearingElement
-        It interpolates by a spline of its own and may extrapolate, where `TabulatedBearing` refuses.
+        ROSS interpolates with its own spline and may extrapolate, where `TabulatedBearing` raises an error.
 
     Raises
     ------
@@ -328,21 +328,21 @@ def to_ross(
 def to_ross_force(
     rotor: Rotor, films: Mapping[int, PlanarReaction], rests: Mapping[int, Coefficients]
 ) -> Callable[..., Array]:
-    """Return what films do beyond their stiffness and damping, for `add_to_RHS` of ROSS's time response.
+    """Return the nonlinear part of film forces, for `add_to_RHS` of ROSS's time response.
 
     The rotor of ROSS has a bearing `to_ross(LinearBearing(...))` of the film's stiffness K and damping C at
     each of these nodes, and its motion counts from the equilibrium, where ROSS starts, so that no weight is
-    given. The force is F(q0 + d, v) - F(q0, 0) + K d + C v: with the linear part, which ROSS has in its
-    matrices, it is the film at any displacement d. ROSS takes it at the start of a step,
-    or iterates it (`newmark_type="robust"`). The speed is that of the coefficients.
+    given. The force is F(q0 + d, v) - F(q0, 0) + K d + C v: together with the linear part in the matrices of
+    ROSS it is the film force at any displacement d. ROSS takes it at the start of a step, or iterates it
+    (`newmark_type="robust"`). The speed is that of the coefficients.
 
     Parameters
     ----------
     rotor : ross.Rotor
     films : mapping of int to PlanarReaction
-        By node.
+        Films by node.
     rests : mapping of int to Coefficients
-        Where each journal rests, with K and C there, as `coefficients` or a `RotorEquilibrium` has them.
+        Equilibrium of each journal with its K and C, as `coefficients` or a `RotorEquilibrium` has them.
 
     Returns
     -------

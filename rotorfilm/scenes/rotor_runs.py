@@ -87,8 +87,9 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
     Parameters
     ----------
     scene : Scene
-        With a `[shaft]`, or with a `[rigid_rotor]` on a film that carries it. Its excitation is an unbalance,
-        a `blade_loss`, whose run begins where the blade is lost, a `run_up`, a `motor` or `ground`.
+        Scene with a `[shaft]`, or with a `[rigid_rotor]` on a film that carries it. Its excitation is an
+        unbalance, a `blade_loss`, whose run begins where the blade is lost, a `run_up`, a `motor` or
+        `ground`.
     report : callable
         Is told the progress.
 

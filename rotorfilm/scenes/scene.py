@@ -98,25 +98,27 @@ NO_LOAD = "operation.load is required where there is no [rigid_rotor], got neith
 
 @dataclass(frozen=True, kw_only=True)
 class Scene:
-    """Bearings, what they carry, how it is run, and what is asked.
+    """A scene: bearings, the rotor that they carry, its operation, and a question.
 
-    The fields are the tables of schema 1, by their names in the file; all may be left out, not all at once.
+    The fields are the tables of schema 1, by their names in the file. Each table is optional, but one at
+    least must be given.
 
     Parameters
     ----------
     title : str
         One line for print-outs and charts.
     tables : mapping of str to object
-        Those of bearings, and of rotors in their own bearings, by their names in the file, as `FAMILIES` has
-        them. Each is an attribute too, as `scene.journal`; None where the scene has none.
+        Tables of bearings and of rotors with bearings, by their names in the file; `FAMILIES` lists the
+        names. Each is also an attribute, such as `scene.journal`, which is None if the scene does not have
+        it.
     operation : OperationTable or None
         Speed and load.
     lubricant : LubricantTable
-        The oil and what cools it, and properties for the checks of what the films leave out.
+        The oil and its cooling, and properties for the checks of neglected effects.
     rigid_rotor : RigidRotorTable or None
-        What the bearing carries; without it there is no whirl threshold and no transient.
+        The rotor that the bearing carries; without it there is no whirl threshold and no transient.
     excitation : ExcitationTable or None
-        What shakes it besides the steady load, or drives it.
+        Excitation or drive in addition to the steady load.
     cosimulation : CosimulationTable
         Macro step and length of a coupled run.
     question : QuestionTable or None
@@ -217,19 +219,19 @@ class Scene:
         return read_scene(varied(read_tables(path), changes), str(path))
 
     def solve(self, report: Report = silent) -> Any:
-        """Return the answer to the question, or where none is asked what the bearing of the scene answers.
+        """Return the answer to the question, or without a question the results of the bearing or rotor.
 
         Parameters
         ----------
         report : callable
-            Is told the progress.
+            Called with the progress.
 
         Returns
         -------
         Readable
-            A `QuestionAnswer`; without a question the `Answer` of a bearing with a film, of a `[shaft]` a
-            `RotorAnswer`, of a `[damper]` a `DamperAnswer`, of a `[contact]` a `ContactAnswer`, of a
-            `[bush]` a `BushAnswer`.
+            A `QuestionAnswer`. Without a question it is an `Answer` for a bearing with a film, a
+            `RotorAnswer` for a `[shaft]`, a `DamperAnswer` for a `[damper]`, a `ContactAnswer` for a
+            `[contact]`, and a `BushAnswer` for a `[bush]`.
         """
         if self.question is not None:
             return self.ask()
@@ -241,12 +243,12 @@ class Scene:
 
     @one_blas_thread
     def ask(self) -> QuestionAnswer:
-        """Return the answer to the question by the first rung that meets its tolerance.
+        """Return the answer to the question by the cheapest model that meets its tolerance.
 
         Returns
         -------
         QuestionAnswer
-            With the whole ladder, also where no rung meets the tolerance: then `met` is false.
+            The answer, with all models that were tried. If no model meets the tolerance, `met` is false.
 
         Raises
         ------
@@ -258,7 +260,7 @@ class Scene:
         Warns
         -----
         ValidityWarning
-            Where the physics of all rungs leaves out what matters in this scene.
+            If all models neglect an effect that matters in this scene.
         """
         answer: QuestionAnswer = offered("ask")(self)
         for remark in answer.remarks:
@@ -268,7 +270,7 @@ class Scene:
     def describe(self) -> Answer:
         """Return equilibrium, coefficients and whirl threshold of a bearing with a film.
 
-        What the physics of the film leaves out is in `remarks` of the answer.
+        Effects that the film neglects are in `remarks` of the answer.
         """
         bearing = self.bearing  # once, and before an import resets what was warned of: making it may warn
         from .solve_journal import film_answer  # which a scene with a question does not need
@@ -295,14 +297,14 @@ class Scene:
         return self.tables.get(name)
 
     def required(self, name: str, what: str) -> Any:
-        """Return a table by its name; raise InputError, naming what it is for, if there is none."""
+        """Return a table by its name; raise InputError, which states its purpose, if there is none."""
         found = getattr(self, name)
         if found is None:
             raise InputError(f"{name} is required for {what}, got no such table")
         return found
 
     def excited_by(self, what: str, *kinds: type) -> Any:
-        """Return the excitation; raise InputError, naming what it is for, unless it is of these kinds."""
+        """Return the excitation; raise InputError, which states its purpose, for other kinds."""
         if not isinstance(self.excitation, kinds):
             named = " or ".join(f'"{name}"' for name, table in EXCITATIONS.items() if table in kinds)
             got = "none" if self.excitation is None else repr(self.excitation)
@@ -311,7 +313,7 @@ class Scene:
 
     @property
     def film_remarks(self) -> tuple[str, ...]:
-        """What the physics of the bearing's film leaves out and should not, one line each."""
+        """Effects that the film neglects although they matter, one line each."""
         return self._remarks_of(self.bearing)
 
     def _remarks_of(self, bearing: Reaction) -> tuple[str, ...]:
@@ -320,7 +322,7 @@ class Scene:
 
     @property
     def film_is_given(self) -> bool:
-        """Whether the file names the film, so that no other may answer."""
+        """Whether the file names the film, so that no other film may be used."""
         return self.has_film and self.film_table.film_is_given
 
     @property

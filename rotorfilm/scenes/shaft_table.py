@@ -61,7 +61,7 @@ class PieceTable(reading.Taking):
     Parameters
     ----------
     length : float [m]
-        Of the whole piece.
+        Length of the whole piece.
     pieces : int
         Number of equally long elements.
     material : ElasticMaterial or None
@@ -102,11 +102,12 @@ class DiskTable(reading.Taking):
     Parameters
     ----------
     mass : float or None [kg]
-        Of a disk of given mass and inertia.
+        Mass of a disk of given mass and inertia.
     width, outer_diameter, inner_diameter : float [m]
-        Of a disk of given size; a width and an outer diameter take the place of a mass.
+        Width, outer diameter and inner diameter of a disk of given size; a width and an outer diameter take
+        the place of a mass.
     density : float or None [kg/m3]
-        Of a disk of given size; that of the shaft unless given.
+        Density of a disk of given size; that of the shaft unless given.
     """
 
     mass: float | None = None
@@ -156,11 +157,11 @@ class BearingTable:
     journal : JournalTable or None
         A journal bearing at the node.
     stiffness : float [N/m] or 2 x 2 numbers, or None
-        Of a bearing given by constant coefficients.
+        Stiffness of a bearing given by constant coefficients.
     damping : float [N s/m] or 2 x 2 numbers
         Beside that stiffness.
     seal : AnnularSeal or None
-        With its added mass, which a run over time leaves out.
+        Seal with its added mass, which a run over time leaves out.
     support : Support or None
         Its housing; rigid unless given.
     tilt : TiltLevel or None
@@ -274,15 +275,15 @@ class CompressorTable:
     speed : float [rad/s]
         Maximum continuous speed.
     impellers : tuple of Impeller
-        Of a centrifugal compressor.
+        Impellers of a centrifugal compressor.
     axial_stages : tuple of AxialStage
-        Of an axial one, beside impellers or alone.
+        Axial stages of an axial one, beside impellers or alone.
     stage_speed : float or None [rad/s]
-        At which the stages have their power; `speed` unless given.
+        Stage speed at which the stages have their power; `speed` unless given.
     average_density : float or None [kg/m3]
-        Of the gas; by default of the lowest suction and the highest discharge.
+        Average density of the gas; by default of the lowest suction and the highest discharge.
     nodes : tuple of CouplingShare
-        Where cross-coupling acts; the node next to mid-span unless given.
+        Nodes where cross-coupling acts; the node next to mid-span unless given.
     supports : tuple of str
         Names of the bearings that are rigid for the critical speed ratio, and between which mid-span is; all
         but seals unless given.
@@ -386,7 +387,7 @@ class ShaftTable(reading.Taking):
     Parameters
     ----------
     material : ElasticMaterial
-        Of the shaft.
+        Material of the shaft.
     elements : tuple of PieceTable and Coupling
         Pieces of shaft and couplings, from the first node to the last.
     bearings : tuple of BearingTable
@@ -396,11 +397,11 @@ class ShaftTable(reading.Taking):
     disks : tuple of DiskTable
         Disks of given size, or of given mass and inertia.
     unbalances : tuple of UnbalanceTable
-        That turn with the shaft.
+        Unbalances that turn with the shaft.
     beam : Beam
         Beam element; that of fourth order unless given.
     highest_frequency : float or None [rad/s]
-        Of the modes shown; twice the last speed unless given.
+        Highest frequency of the modes shown; twice the last speed unless given.
     compressor : CompressorTable or None
         What API 617 asks.
     """

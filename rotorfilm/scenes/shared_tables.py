@@ -127,7 +127,7 @@ class Lubricant:
     ----------
     density : float [kg/m3]
     heat_capacity : float [J/(kg K)]
-        Per mass.
+        Heat capacity per mass.
     conductivity : float [W/(m K)]
     thinning : float [1/K]
         -d ln(viscosity)/d temperature.
@@ -159,11 +159,11 @@ class LubricantTable(reading.Taking):
     viscosity_40, viscosity_100 : float or None [m2/s]
         Kinematic viscosity at 40 and 100 degC.
     supply_temperature : float or None [K]
-        Of the fresh oil; required with a viscosity.
+        Supply temperature of the fresh oil; required with a viscosity.
     density : float or None [kg/m3]
-        At 15 degC, of an oil with a viscosity here.
+        Density at 15 degC, of an oil with a viscosity here.
     heat_capacity : float or None [J/(kg K)]
-        Per mass.
+        Heat capacity per mass.
     conductivity : float or None [W/(m K)]
         Thermal conductivity of the oil.
     thinning : float or None [1/K]
@@ -290,9 +290,9 @@ class UnbalanceTable:
     unbalance : float [kg m]
         Mass times eccentricity of its center.
     unbalance_angle : float [rad]
-        From +x at t = 0.
+        Unbalance angle from +x at t = 0.
     node : int
-        Of a flexible rotor, where it sits; 0 for all others.
+        Node of a flexible rotor, where it sits; 0 for all others.
     """
 
     unbalance: float
@@ -344,7 +344,7 @@ class RunUpTable(UnbalanceTable):
     end_speed : float [rad/s]
         Last speed of the run-up.
     duration : float [s]
-        Of the way there.
+        Duration of the way there.
     back : bool
         Whether the speed returns in the same time.
     """
@@ -419,7 +419,7 @@ class MotorTable(UnbalanceTable):
     stall_torque : float [N m]
         Torque at rest; it falls in a line to nothing at the idle speed.
     idle_speed : float [rad/s]
-        At which the motor has no torque.
+        Idle speed at which the motor has no torque.
     resistance : float [N m s/rad]
         Torque per rad/s that resists.
     """
@@ -455,9 +455,9 @@ class GroundTable:
         Columns `frequency [rad/s]` and `density [m2/s3]`, the one-sided spectral density of the acceleration,
         the same along x and along y.
     scale : float [1]
-        By which the motion is multiplied.
+        Scale by which the motion is multiplied.
     seed : int
-        Of the random phases of a spectrum.
+        Seed of the random phases of a spectrum.
     """
 
     acceleration: Annotated[reading.Record | None, reading.record_of("time [s]", "x [m/s2]", "y [m/s2]")] = (

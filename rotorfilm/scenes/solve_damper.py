@@ -37,11 +37,11 @@ class DamperAnswer(Readable):
     groups : DamperGroups
         w_r being the speed.
     orbits : tuple of CircularOrbit
-        At the rotor's unbalance, the smallest first; none means contact.
+        Orbits at the rotor's unbalance, the smallest first; none means contact.
     folds : tuple of Fold
     contact_unbalance : float or None [kg m]
     small_motion : OrbitCoefficients
-        Of film and springs on a circular orbit of a hundredth of the clearance.
+        Small motion of film and springs on a circular orbit of a hundredth of the clearance.
     response : SynchronousOrbits
         Orbits over unbalances up to twice the rotor's.
     unbalance_scale : float [kg m]

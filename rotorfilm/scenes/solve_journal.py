@@ -15,26 +15,26 @@ from ..core.results import BearingLosses, Coefficients, Equilibrium, WhirlThresh
 
 @dataclass(frozen=True, kw_only=True)
 class Answer(Readable):
-    """What a scene has been answered with.
+    """The results of a bearing with a film.
 
     Attributes
     ----------
     bearing : Readable
-        The bearing that was asked about, of a journal `BearingData`.
+        Data of the bearing; for a journal bearing `BearingData`.
     model : str
-        The film law that answered.
+        The film law that was used.
     equilibrium : Equilibrium
     coefficients : Coefficients
         Stiffness [N/m] and damping [N s/m] at the equilibrium.
     losses : BearingLosses or None
-        Power loss, torques and oil flow at the equilibrium; None where the film law does not know them.
+        Power loss, torques and oil flow at the equilibrium; None if the film law does not provide them.
     critical_mass : CriticalMass
         Heaviest rigid rotor that is stable at the equilibrium.
     whirl_threshold : WhirlThreshold or None
-        Onset of self-excited whirl; None when the scene has no rotor, or a film that conserves its oil, of
-        which a question finds it.
+        Onset of self-excited whirl; None if the scene has no rotor, or a mass-conserving film (a question
+        finds it then).
     remarks : tuple of str
-        What the physics of the film leaves out, in dimensionless numbers; only a scene knows.
+        Effects that the film neglects, with dimensionless numbers; only a scene has them.
     """
 
     bearing: Readable

@@ -42,7 +42,7 @@ class RotorAnswer(Drawable):
     ----------
     title : str
     mass : float [kg]
-        Of shaft and disks.
+        Mass of shaft and disks.
     states : int
     loads : dict of str to ndarray, shape (2,) [N]
         Static load on each bearing, at the first speed.
@@ -55,7 +55,7 @@ class RotorAnswer(Drawable):
     campbell : Campbell
         All whirls over the speed.
     amplitudes : dict of str to ndarray, shape (n_response,)
-        Over the frequencies of `response`, which are closer about the critical speeds.
+        Amplitudes over the frequencies of `response`, which are closer about the critical speeds.
         Of each displacement [m] and force on a housing [N] under the unbalance; empty without one.
     response : control.FrequencyResponseData or None
         The same with phases.
@@ -89,7 +89,7 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
     Parameters
     ----------
     scene : Scene
-        With a shaft; an unbalance as excitation is added to those of the shaft.
+        Scene with a shaft; an unbalance as excitation is added to those of the shaft.
     report : callable
         Is told the progress.
 
@@ -205,7 +205,7 @@ def solve_level_one(scene: Scene) -> analysis.StabilityLevelOne:
     Parameters
     ----------
     scene : Scene
-        With a table `[shaft.compressor]`.
+        Scene with a table `[shaft.compressor]`.
 
     Raises
     ------
@@ -237,7 +237,7 @@ def level_one_remarks(scene: Scene) -> tuple[str, ...]:
     Parameters
     ----------
     scene : Scene
-        With a table `[shaft.compressor]`.
+        Scene with a table `[shaft.compressor]`.
 
     Raises
     ------

@@ -53,7 +53,7 @@ def ball_accuracy(states: int = 40, *, seed: int = SEED, report: Report = silent
     states : int
         Random loads and speeds of each bearing.
     seed : int
-        Of the random numbers.
+        Seed of the random numbers.
     report : Report
         Of progress.
 
@@ -151,22 +151,22 @@ class BallCurves(Readable):
     Attributes
     ----------
     thrust, load : float [N]
-        Along +z, and along -y.
+        Thrust and load along +z, and along -y.
     speeds : ndarray, shape (n,) [rad/s]
     ball_angle : ndarray, shape (balls,) [rad]
         Where the balls are.
     inner_load, outer_load : ndarray, shape (n, balls) [N]
-        Of their contacts under both loads.
+        Inner load and outer load of their contacts under both loads.
     inner_angle, outer_angle : ndarray, shape (n,) [rad]
         Contact angles under the thrust alone.
     preloads : tuple of float [N]
-        As pairs back to back were clamped.
+        Preloads as pairs back to back were clamped.
     running_preload : ndarray, shape (preloads, n) [N]
-        With which the rows of these pairs press each other at speed.
+        Running preload with which the rows of these pairs press each other at speed.
     radial_stiffness, axial_stiffness : ndarray, shape (preloads, n) [N/m]
-        Of these pairs, unloaded.
+        Radial stiffness and axial stiffness of these pairs, unloaded.
     swing : VariableCompliance
-        Of a deep groove bearing with the same balls under the radial load at the highest speed.
+        Swing of a deep groove bearing with the same balls under the radial load at the highest speed.
     """
 
     thrust: float
@@ -228,7 +228,7 @@ def ball_curves(
     Parameters
     ----------
     bearing : BallBearing
-        With a contact angle; how it holds its shaft does not count.
+        Bearing with a contact angle; how it holds its shaft does not count.
     speeds : array_like, shape (n,) [rad/s]
     thrust, load : float [N]
     preloads : sequence of float [N]

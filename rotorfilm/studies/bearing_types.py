@@ -201,7 +201,8 @@ def bearing_thresholds(
     slenderness : float [1]
         Length / diameter.
     mass : float [kg]
-        That a bearing carries; the load need not be its weight, as of a rotor with gears or one that stands.
+        Mass that a bearing carries; the load need not be its weight, as of a rotor with gears or one that
+        stands.
     loads : sequence of float [N]
     speed_range : (float, float) [rad/s]
     types : mapping of str to Reaction, optional

@@ -63,9 +63,9 @@ def contact_precision(
         Cells along each side of the reference; the rungs have a half to three quarters of them.
     duration : float [1]
     tolerance : float
-        Of the steps of the reference.
+        Tolerance of the steps of the reference.
     orders : tuple of int
-        Of the reduced laws.
+        Orders of the reduced laws.
     report : callable
         Told how far the work is.
     """

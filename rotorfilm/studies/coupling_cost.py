@@ -58,7 +58,7 @@ def resting_rotor(
     mass_ratio : float [1]
         speed^2 clearance mass / load, the square of the speed parameter.
     direction : float [rad]
-        Of the eccentricity.
+        Direction of the eccentricity.
     unbalance_ratio : float [1]
         Unbalance / (mass clearance).
     """

@@ -94,7 +94,7 @@ def damper_accuracy(
         Random states: eccentricity ratio uniform to 0.9, directions uniform.
     seed : int
     rounds : int
-        Of timing; the shortest counts.
+        Rounds of timing; the shortest counts.
     report : callable, optional
 
     Raises

@@ -262,9 +262,9 @@ def heat_accuracy(
     ----------
     cases : sequence of HeatCase
     cells : tuple of int
-        Of the reference.
+        Cells of the reference.
     layers : int
-        Of the reference.
+        Layers of the reference.
     report : callable, optional
         Told how far the job is.
     """

@@ -303,7 +303,7 @@ def journal_accuracy(
     ranges : StateRange
         Where they are drawn from.
     seed : int
-        Of the random numbers.
+        Seed of the random numbers.
     rungs : sequence of StudyModel, optional
         `journal_rungs()` by default.
     cells : tuple of int

@@ -54,7 +54,7 @@ def pad_accuracy(
     states : int
         Random states of each bearing.
     seed : int
-        Of the random numbers.
+        Seed of the random numbers.
     rungs : sequence of StudyModel, optional
         `pad_rungs()` by default.
     cells : (int, int)

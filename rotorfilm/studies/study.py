@@ -92,7 +92,7 @@ class Study:
     Attributes
     ----------
     name : str
-        Of its chart.
+        Name of its chart.
     solve : callable
         Returns the answer of a model in a case.
     quantities : callable
@@ -117,7 +117,7 @@ class StudyRow(Readable):
     Attributes
     ----------
     name, family, label : str
-        Of the model.
+        Name, family and label of the model.
     case : str
     values : dict of str to object
         Row of the table, by headings with units.
@@ -264,11 +264,11 @@ def film_times(
     batch, alone : str
         Headings of the time in a batch, and of that alone.
     states : States
-        At which forces are timed.
+        States at which forces are timed.
     bearing : callable
         Returns the bearing that is timed, of the law of a model.
     rounds : int
-        Of timing; the shortest counts.
+        Rounds of timing; the shortest counts.
     pads : int
         Films of that bearing.
     sized : bool

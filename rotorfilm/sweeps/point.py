@@ -119,7 +119,7 @@ class Axis:
     key : str
         Dotted, as `journal.clearance`; entries of lists by their number, as `shaft.disks.0.width`.
     dimension : str
-        Of the dataset.
+        Dimension of the dataset.
     values : tuple
         As a scene file would have them.
     """

@@ -58,15 +58,16 @@ def sweep(
         A scene file, or its tables.
     parameters : mapping of str to sequence, or to (str, sequence)
         Values by dotted key, as a scene file would have them: `{"journal.clearance": ["50 um", "60 um"]}`.
-        Each key is a dimension of its own, so that all combinations are solved; keys given as (dimension,
-        values) share that dimension, as Monte Carlo samples do: `{"journal.clearance": ("sample", c), ...}`.
+        Each key is a dimension of its own, so that all combinations are solved. Keys given as (dimension,
+        values) share that dimension, for example for Monte Carlo samples:
+        `{"journal.clearance": ("sample", c), ...}`.
     path : path, optional
         NetCDF file to write. While the sweep runs its rows are kept beside it; the same sweep, started again
         after an interruption, goes on from there.
     changes : mapping of str to object, optional
         Values of further keys at all points, in place of those of the scene.
     workers : int, optional
-        Processes of this machine; by default as many as it has cores. 1: this process.
+        Number of processes on this machine; by default as many as it has cores. 1 uses this process.
     dask : str, optional
         Address of a Dask scheduler whose workers solve the points instead.
     report : callable
@@ -75,10 +76,10 @@ def sweep(
     Returns
     -------
     xarray.Dataset
-        For a scene with a question `value`, `error_estimate`, `met`, `model`; for one without
+        Variables for a scene with a question: `value`, `error_estimate`, `met`, `model`. Without a question:
         `eccentricity_ratio`, `attitude_angle`, `minimum_film`, `stiffness`, `damping`, `power_loss`,
         `friction_torque`, `side_flow`, `threshold_speed`, `whirl_ratio`, `model`. A point without an answer
-        has its reason in `failure` and numbers that are not-a-number; what a scene warned of is in `remarks`.
+        has the reason in `failure` and not-a-number elsewhere; warnings are in `remarks`.
 
     Raises
     ------
@@ -90,7 +91,7 @@ def sweep(
     Warns
     -----
     UserWarning
-        With the number of points that have no answer.
+        If some points have no answer, with their number.
     """
     _require_xarray()
     tables, source = _tables(scene)
@@ -263,7 +264,7 @@ class Store:
     path : Path
         Its first line names the sweep, each other one holds a point and its row, behind its checksum.
     name : str
-        Of the sweep: another one in the file is refused.
+        Name of the sweep: another one in the file is refused.
 
     Raises
     ------

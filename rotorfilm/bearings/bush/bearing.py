@@ -81,7 +81,7 @@ class LinerMaterial:
     shear_modulus : float [Pa]
         G.
     poisson_ratio : float [1]
-        nu, at least 0 and below 0.5: an incompressible thin liner does not yield at all.
+        nu, at least 0 and below 0.5: an incompressible thin bonded liner would be rigid.
     expansion : float [1/K]
         Coefficient of linear thermal expansion alpha_T.
     conductivity : float [W/(m K)]
@@ -341,7 +341,7 @@ class MeltingBush:
         load : array_like, shape (...) [N]
             Not negative.
         temperature : array_like, shape (...) [K], optional
-            Of the contact; the melting point by default.
+            Temperature of the contact; the melting point by default.
 
         Returns
         -------

@@ -169,9 +169,10 @@ class Melting(NamedTuple):
     ----------
     heat : ndarray, shape (n,) [W/m2]
     by_pressure : ndarray, shape (n,)
-        By the pressure of the node itself.
+        By pressure by the pressure of the node itself.
     by_total, by_angle, by_work : ndarray, shape (n,)
-        By the integral of the pressure, half the contact angle, and the friction work per pressure.
+        By total, by angle and by work by the integral of the pressure, half the contact angle, and the
+        friction work per pressure.
     """
 
     heat: Array
@@ -187,7 +188,7 @@ class HeatState(NamedTuple):
     Attributes
     ----------
     pressure : ndarray, shape (n,)
-        In shear moduli.
+        Pressure in shear moduli.
     total, angle : float [rad]
         Integral of the pressure over the angle; half the angle in contact.
     work : float [W/m2]
@@ -219,8 +220,8 @@ class MeltingRule(Protocol):
 class SharedMelting:
     """The contact melts when its whole friction heat exceeds its whole losses, in proportion to pressure.
 
-    The balance of (2.16), hence the same critical speed; heat is conserved in total, and no point melts
-    before it is in contact. Under a load that grows this is `BushWear` with the true pressure.
+    The heat balance is that of (2.16), so the critical speed is the same. Heat is conserved in total, and no
+    point melts before it is in contact. Under a growing load this is `BushWear` with the true pressure.
     """
 
     def melting(self, at: HeatState) -> Melting:
@@ -247,8 +248,8 @@ class SharedMelting:
 class LocalMelting:
     """Each point melts when its own friction heat exceeds the mean losses (3.1), clamped at zero.
 
-    Points that do not melt are held at the melting point for nothing, so heat is not conserved there; melting
-    begins below the critical speed (2.16), at two thirds of it for a small contact.
+    Points that do not melt are held at the melting point without a heat source, so heat is not conserved
+    there. Melting begins below the critical speed (2.16), at two thirds of it for a small contact.
     """
 
     def melting(self, at: HeatState) -> Melting:
@@ -276,18 +277,18 @@ class LocalMelting:
 class BushReaction(Called):
     """A `MeltingBush` with wear depths at nodes, its contact at a given temperature: a Reaction with states.
 
-    Loads may fall and turn, the shaft may leave the liner and come back. The pressure at an angle theta is
-    q = (G/a_1) max(0, d), with the depth of the shaft in the liner
+    Loads may decrease and change direction, and the shaft may leave the liner and come back. The pressure at
+    an angle theta is q = (G/a_1) max(0, d), with the depth of the shaft in the liner
 
         d = (e . n - Delta)/R + ln(R_2/R) B T - v/R   (+ retardation times the rate of e . n / R),
 
     n = (cos theta, sin theta), e the position, v the wear. The force on the journal is that of the pressure
     and of the friction, f q against the sense of rotation.
 
-    The contact is held at the temperature T, by default the melting point T_*, where alone it wears. A worn
-    contact cools where its friction heat no longer covers the losses, and `rest` answers where the shaft then
-    rests and how cold it gets. That is for given loads only: at a given position heat presses, pressing
-    heats, and no steady temperature is stable.
+    The contact is held at the temperature T, by default the melting point T_*, at which alone it wears. A
+    worn contact cools if its friction heat no longer covers the losses; `rest` returns the equilibrium and
+    the temperature then. This holds for given loads only. At a given position, expansion raises the pressure
+    and pressure raises the heat, so that no steady temperature is stable.
 
     Parameters
     ----------
@@ -305,8 +306,8 @@ class BushReaction(Called):
     wear_depth : tuple of floats [m]
         Wear at t = 0 at the nodes, not negative; empty for none.
     temperature : float or None [K]
-        Of the contact above ambient, at most the melting point; None for that, with a warning where a worn
-        contact would cool.
+        Temperature of the contact above ambient, at most the melting point; None for that, with a warning
+        where a worn contact would cool.
 
     Raises
     ------
@@ -384,7 +385,7 @@ class BushReaction(Called):
         return np.arctan2(self._liner.nodes.normal[1], self._liner.nodes.normal[0])
 
     def native(self) -> NativeSpec | None:
-        """Return the kernel of the C library that is this model; None for a subclass or a rule of others."""
+        """Return the kernel of the C library that is this model; None for a subclass or other rule."""
         known = type(self.melting) in (SharedMelting, LocalMelting) and has_kernel(self.bush)
         if type(self) is not BushReaction or not known:
             return None
@@ -409,7 +410,7 @@ class BushReaction(Called):
         ----------
         position, velocity : array_like, shape (2, ...) [m], [m/s]
         speed : array_like, shape (...) [rad/s]
-            Of either sign; without rotation there is no friction.
+            Speed of either sign; without rotation there is no friction.
 
         Raises
         ------
@@ -480,15 +481,15 @@ class BushReaction(Called):
     def rest(self, load: ArrayLike, speed: float, wear: ArrayLike | None = None) -> tuple[Array, float]:
         """Return where a shaft comes to rest under a static load, and the temperature that friction gives.
 
-        Steady heat on the worn profile, without melting: friction heat equals the losses, at the melting
-        point at most. Parameters and errors are those of `position`; `replace(reaction, temperature=...)`
-        holds the contact at the temperature.
+        Heat is steady on the worn profile, without melting: friction heat equals the losses, up to the
+        melting point. Parameters and errors are those of `position`; `replace(reaction, temperature=...)`
+        holds the contact at the temperature found.
 
         Returns
         -------
         position : ndarray, shape (2,) [m]
         temperature : float [K]
-            Of the contact above ambient.
+            Temperature of the contact above ambient.
         """
         depths = self.initial_state if wear is None else require_finite("wear", wear)
 
@@ -512,7 +513,7 @@ class BushReaction(Called):
     def position(self, load: ArrayLike, speed: float, wear: ArrayLike | None = None) -> Array:
         """Return the position at which the bush carries a static load at the temperature it is held at.
 
-        `equilibrium` answers the same with the wear at t = 0.
+        `equilibrium` finds the same position for the wear at t = 0.
 
         Parameters
         ----------

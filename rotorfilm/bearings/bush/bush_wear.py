@@ -54,8 +54,8 @@ class BushWear:
 
     Melting is taken proportional to the local pressure, whose shape is (2.14). The contact is taken to end on
     unworn liner, as it does while the load does not fall. A worn contact under a smaller load, or colder,
-    ends within the worn part: it is narrower, and warmer, than here (docs/bush.md), which a warning says.
-    `BushReaction` knows the profile, and its `rest` how far the contact cools.
+    ends within the worn part: it is narrower and warmer than this model says (docs/bush.md), and a warning
+    says so. `BushReaction` follows the profile, and its `rest` finds how far the contact cools.
 
     Parameters
     ----------

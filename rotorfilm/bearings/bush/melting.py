@@ -71,8 +71,8 @@ class HeatBalance(Protocol):
 class ContactBalance:
     """Heat per area of contact = Q_1 + Q_2 + melting, as published (1.2).
 
-    Q_1 is a flux through the whole circumference of the shaft, but friction heats the arc 2 alpha only, so
-    this balance lets the shaft take alpha/pi of the heat that its temperature problem says.
+    Q_1 is a flux through the whole circumference of the shaft, but friction heats the arc 2 alpha only. So in
+    this balance the shaft takes only the share alpha/pi of the heat that its temperature field requires.
     """
 
     def share(self, alpha: ArrayLike) -> Array:
@@ -131,7 +131,8 @@ class MeltingLaw(NamedTuple):
     Attributes
     ----------
     clearance, closing, compliance : float [1], [1/K], [1]
-        Per liner radius: cold clearance, thermal closing per kelvin, and a_1.
+        Clearance, closing and compliance per liner radius: cold clearance, thermal closing per kelvin, and
+        a_1.
     pressure_work : float [N/m]
         G R_1: friction heat per contact area for unit pressure, friction coefficient and speed.
     shaft, liner : float [W/(m2 K)]
@@ -369,7 +370,7 @@ def approximate_flux(cooling: float, stubbiness: float) -> float:
     Parameters
     ----------
     cooling, stubbiness : float
-        As in `exact_flux`.
+        Cooling and stubbiness as in `exact_flux`.
     """
     s = math.sqrt(C2 / C3)
     half = 0.5 * (C1 + cooling * C3)

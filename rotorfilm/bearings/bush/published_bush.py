@@ -86,9 +86,9 @@ def published_stage(bush: MeltingBush, load: ArrayLike, speed: float, times: Arr
     Parameters
     ----------
     bush : MeltingBush
-        With `ContactBalance()` and a positive `outer_swing`, which the unit of time needs.
+        Bush with `ContactBalance()` and a positive `outer_swing`, which the unit of time needs.
     load : array_like, shape () or (n,) [N]
-        At the times; constant in the source.
+        Load at the times; constant in the source.
     speed : float [rad/s]
         Not negative.
     times : array_like, shape (n,)
@@ -188,7 +188,7 @@ def f4k20_bush() -> MeltingBush:
     """Return the example of Evtushenko & Kovalenko (1993), section 4, as a `MeltingBush`.
 
     Shaft and housing of steel, liner of filled PTFE F4K20. The source calculates with `ApproximateShaft()`;
-    take it by `dataclasses.replace`.
+    use `dataclasses.replace` to do the same.
     """
     return MeltingBush(
         geometry=BushGeometry(radius=13e-3, outer_radius=14.5e-3, shaft_radius=12.5e-3, length=0.1),

@@ -76,7 +76,7 @@ def wear_at_nodes(
     bush : Wearing
     rule : MeltingRule
     stages : tuple of Stage
-        Of any loads above zero.
+        Stages of any loads above zero.
     count : int
         Nodes to one side of the load line.
     reach : float [rad]
@@ -130,7 +130,7 @@ class LocalEnd(NamedTuple):
     settlement : float
         By how much farther than unworn the shaft settles, per radius.
     rate : float [1/s]
-        By which the last of the wear decays.
+        Rate by which the last of the wear decays.
     exact : bool
         Whether all that melts goes on melting to the end.
     """

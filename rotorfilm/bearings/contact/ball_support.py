@@ -40,23 +40,23 @@ class BallSupport(Called):
     """A journal carried by equal balls at fixed angles, each through one lubricated contact.
 
     The ball at the angle theta is approached by z = gap - n . q, n = (cos theta, sin theta), q the position
-    of the journal, and pushes it with -n F(z), F being the law. The balls roll in fixed places, as in a
-    bearing whose cage stands still or turns slowly; what presses them from behind is rigid. Each law holds
-    for one rolling speed: the angular speed of the journal does not enter. Take it where the dynamics of the
-    lubricated contact is the question; a bearing from a catalog, with grooves, contact angle, thrust or fast
-    balls, is a `BallBearing`.
+    of the journal, and pushes it with -n F(z), F being the law. The balls roll at fixed angles, as in a
+    bearing whose cage stands still or turns slowly, against a rigid outer ring. Each law holds for one
+    rolling speed: the angular speed of the journal has no influence. Use this class to study the dynamics of
+    the lubricated contact. A bearing from a catalog, with grooves, contact angle, thrust or fast balls, is a
+    `BallBearing`.
 
     Parameters
     ----------
     law : ContactLaw
-        In SI, from `reduce_ball`.
+        Law in SI, from `reduce_ball`.
     angles : tuple of float [rad]
-        Where the balls are, from +x towards +y.
+        Angles where the balls are, from +x towards +y.
     gap : float [m]
         Approach of every ball where the journal is in the center; negative for a preload, as
         `law.approach(load)`.
     position : (float, float) [m]
-        Of the journal until t = 0, where the balls have rested.
+        Position of the journal until t = 0, where the balls have rested.
 
     Raises
     ------
@@ -113,15 +113,15 @@ class BallSupport(Called):
         return self.resting(self.position)
 
     def resting(self, position: ArrayLike) -> Array:
-        """Return the state in which the balls have long rested with the journal at a position (2,) [m]."""
+        """Return the steady state of the balls for a journal at rest at a position (2,) [m]."""
         approaches = self.gap + self._motion[:, :2] @ require_vector("position", position)
         return np.concatenate([self.law.resting(z / self.law.film_scale) for z in approaches])
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
         """Return the force on the journal in slow motion [N], shape (2, ...).
 
-        The static laws and the damping of slow motions under the load f = 1, where a ball is in contact;
-        `output` has the whole dynamic stiffness, and `coefficients` its value at a frequency.
+        It is the sum of the static laws and, for each ball in contact, the damping of slow motion under the
+        load f = 1. `output` has the whole dynamic stiffness, and `coefficients` its value at a frequency.
         """
         z, rate = self._approaches(position, velocity)
         carried = self.law.static_force(z)
@@ -138,7 +138,7 @@ class BallSupport(Called):
         return np.concatenate([*blocks, np.zeros((2, 1, *z.shape[1:]))], axis=1)
 
     def at_rest(self) -> BallSupport:
-        """Return this support: at rest its films add nothing to the static laws."""
+        """Return this support: at rest the films add nothing to the static laws."""
         return self
 
     def rest_state(self, position: ArrayLike, speed: float) -> Array:
@@ -306,16 +306,16 @@ def ball_transient(
     Parameters
     ----------
     law : ContactLaw
-        In SI, or dimensionless; then mass is W/(2 pi/3) and load is f.
+        Law in SI, or dimensionless; then mass is W/(2 pi/3) and load is f.
     mass : float [kg]
     load : callable
         Force towards the plane over time [N]; integration stops at its `breakpoints`, if it has that
-        attribute, and it is to return the value before a jump there.
+        attribute. At a jump it must return the value before the jump.
     start, velocity : float [m, m/s]
         Approach and its rate at t = 0; the contact has rested at the start until then.
     duration : float [s]
     samples : int
-        Instants of the answer.
+        Number of times at which the motion is returned.
     rtol : float
         Tolerance of the approach, in units of the film thickness.
 

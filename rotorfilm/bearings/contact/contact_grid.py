@@ -24,10 +24,10 @@ SMALLEST = 8
 class ContactGrid:
     """Cells on the rectangle inlet < x < outlet, |y| < half_width, lengths in Hertzian half-axes.
 
-    Lengths along x are in the half-axis of the dry contact along x, lengths across in that across, so that a
-    grid suits contacts of any ellipticity. The lubricant enters at `inlet` and the surfaces move along +x.
-    Only the half y > 0 is solved for, as the contact is symmetric about y = 0; arrays over the cells have the
-    shape (cells[0], cells[1] // 2).
+    Lengths along x are relative to the half-axis of the dry contact along x, and lengths across to the
+    half-axis across. So one grid suits contacts of any ellipticity. The lubricant enters at `inlet` and the
+    surfaces move along +x. Only the half y > 0 is solved for, as the contact is symmetric about y = 0; arrays
+    over the cells have the shape (cells[0], cells[1] // 2).
 
     Parameters
     ----------
@@ -255,7 +255,7 @@ class DenseDeflection:
     ----------
     grid : ContactGrid
     kernel : callable
-        As of `Deflection`.
+        Kernel as of `Deflection`.
     """
 
     def __init__(self, grid: ContactGrid, *, kernel: Kernel) -> None:
@@ -295,7 +295,7 @@ class Sampling(NamedTuple):
     gap : ndarray, shape (samples,)
         x^2 + (rho_y/rho_x) y^2 at the samples.
     deflection : Deflection or DenseDeflection
-        From pressures on the cells to the samples.
+        Deflection from pressures on the cells to the samples.
     center : ndarray, shape (n,)
         Deflection at the origin per pressure of a cell.
     along, across : sparse matrix
@@ -308,7 +308,7 @@ class Sampling(NamedTuple):
     stored : sparse matrix, shape (n, samples)
         Film thickness in the cells.
     spread : sparse matrix, shape (samples, n)
-        From cells to samples, 0 outside the grid: takes the density there.
+        Spread from cells to samples, 0 outside the grid: takes the density there.
     """
 
     gap: Array
@@ -327,9 +327,10 @@ class Sampling(NamedTuple):
 class StaggeredScheme:
     """Film thickness at the corners of the cells, as published: second order, blind to the checkerboard.
 
-    After Panovko (2011), who deflects the surface by a midpoint rule; here the kernel is integrated exactly,
-    without which the film thickness lacks 0.65 cells times the pressure. An alternating pressure leaves no
-    trace in the film of the cells, so nothing damps it where the pressure gradient carries no flow.
+    After Panovko (2011), who deflects the surface by a midpoint rule; here the kernel is integrated exactly.
+    With the midpoint rule the film thickness is too small by 0.65 cells times the pressure. An alternating
+    pressure leaves no trace in the film of the cells, so nothing damps it where the pressure gradient carries
+    no flow.
 
     Parameters
     ----------
@@ -377,9 +378,9 @@ class UpwindScheme:
     """Film thickness at the centers of the cells, carried by third-order upwind faces: no checkerboard.
 
     The faces across x take (-H_(i-1) + 5 H_i + 2 H_(i+1))/6, which dissipates an alternating film, limited at
-    the outlet, where the film opens (`opening`). The flow
-    by pressure takes film thicknesses of fourth order, and the kernel is that of pressures at the centers
-    (`smooth_cell_deflection`). What is left is of second order: the edges of the rectangle and of the film.
+    the outlet, where the film opens (`opening`). The flow by pressure takes film thicknesses of fourth order,
+    and the kernel is that of pressures at the centers (`smooth_cell_deflection`). The remaining error is of
+    second order and comes from the edges of the rectangle and of the film.
     """
 
     order: ClassVar[int] = 2

@@ -35,11 +35,11 @@ FORCE_TEXT = "force of the film on the ball, away from the plane"
 class ContactLaw:
     """Force of a lubricated point contact over the approach z of the ball, a Model with `order` states.
 
-    F = F_s(z) - [Z(s) - Z(0)] (z - z_1): the static law, and what the dynamic stiffness at the load f = 1
-    adds to it. The state space is stable and has no static part. A film does not pull: F is at least 0, and
-    a ball beyond the offset of the static law no longer drives the state space. Built by `reduce_contact`,
-    `reduce_ball` or `interpolate_contact`; the errors of both fits, and of an interpolation, are kept, that
-    of a motion is to be asked from the full model.
+    F = F_s(z) - [Z(s) - Z(0)] (z - z_1): the static law plus the dynamic stiffness at the load f = 1. The
+    state space is stable and has no static part. A film does not pull: F is at least 0, and a ball beyond the
+    offset of the static law no longer drives the state space. `reduce_contact`, `reduce_ball` and
+    `interpolate_contact` build this law. It keeps the errors of both fits and of an interpolation. The error
+    for a given motion can only be found with the full model.
 
     Valid for loads within `load_range` and motions up to `highest_frequency`. `linearize(law,
     OperatingPoint(x=..., u=[z]))` makes it a control.StateSpace, `BallSupport` a Reaction under a rotor.
@@ -129,7 +129,7 @@ class ContactLaw:
         )
 
     def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return what changes sign where the ball leaves the film, and where the force vanishes."""
+        """Return the switching functions: the ball leaves the film, or the force vanishes."""
         delta = float(np.asarray(u)[0]) / self.film_scale
         return np.array([(delta - self.offset) / self.span, self._load(delta, np.asarray(x, dtype=float))[0]])
 
@@ -157,7 +157,7 @@ class ContactLaw:
         return float(slow[0, 0]) * self.force_scale * self.time_scale / self.film_scale
 
     def static_force(self, z: ArrayLike) -> Array:
-        """Return the force [N] of a contact that has long rested at the approaches z (...) [m]."""
+        """Return the static force [N] of the contact at the approaches z (...) [m]."""
         depth = np.maximum(self.offset - np.asarray(z, dtype=float) / self.film_scale, 0.0) / self.span
         return np.asarray(self.force_scale * depth**self.exponent)
 
@@ -179,7 +179,7 @@ class ContactLaw:
         return contact_spec(self, np.ones((1, 1)), np.ones((1, 1)), 0.0)
 
     def resting(self, delta: float) -> Array:
-        """Return the state in which the contact has long rested at an approach delta [1]."""
+        """Return the steady state of the contact at an approach delta [1]."""
         if not self.order:
             return np.zeros(0)
         return np.asarray(-np.linalg.solve(self.A, self.B[:, 0]) * self._drive(delta), dtype=float)

@@ -72,7 +72,7 @@ class AdaptiveSteps:
     largest : float [1]
         Longest step.
     first : float [1]
-        First step, also after a breakpoint, where there is nothing to estimate an error from.
+        First step, also after a breakpoint, where no earlier steps allow an error estimate.
     """
 
     tolerance: float = 1e-4
@@ -119,7 +119,7 @@ class Memory(NamedTuple):
     step : float [1]
         Length proposed for the next step.
     place : Place or None
-        Where the preconditioner was made.
+        Place where the preconditioner was made.
     work : dict of str to int
         Steps, rejected steps, Newton and GMRES iterations.
     """
@@ -456,11 +456,11 @@ class ContactRun(Drawable):
     time : ndarray [1]
         Times of the results.
     delta, velocity, central_film, minimum_film, carried_load : ndarray [1]
-        As in `ContactState`.
+        Delta, velocity, central film, minimum film and carried load as in `ContactState`.
     driven : ndarray [1]
         Load f, or approach of a driven contact, at those times.
     snapshots : tuple of ContactState
-        States at the times asked for; of a run that was read from a file, those after it was cut off.
+        States at the requested times. A run that was read from a file has only those after its interruption.
     final : ContactState
         Where the run ended; another run may start from it.
     complete : bool
@@ -468,9 +468,9 @@ class ContactRun(Drawable):
     work : dict of str to int
         Steps, rejected steps, Newton and GMRES iterations.
     asked : str
-        Motion, control and end that were asked for: a run that is not complete goes on with these only.
+        Motion, control and end of the run. An incomplete run can be continued with the same ones only.
     memory : Memory
-        What the integration knows beside `final.levels`.
+        Further data that the integration needs to continue, besides `final.levels`.
     """
 
     time: Array

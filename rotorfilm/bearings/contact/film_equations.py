@@ -144,8 +144,8 @@ class RoelandsViscosity:
     """Roelands' law mu = exp(Q0/(s z) ((1 + s p)^z - 1)).
 
     In SI, ln(mu/mu_0) = (ln mu_0 + 9.67)((1 + p/p_r)^z - 1) with p_r = 196 MPa: s = p_H/p_r, and the factor
-    in front is fixed by the initial slope Q0. `roelands_viscosity` does this conversion. Negative
-    pressures, which no solution has but a search may try, continue it by exp(Q0 p).
+    in front is fixed by the initial slope Q0. `roelands_viscosity` does this conversion. For negative
+    pressures, which occur only during the search, it continues as exp(Q0 p).
 
     Parameters
     ----------
@@ -188,7 +188,7 @@ def roelands_viscosity(
     Parameters
     ----------
     viscosity : float [Pa s]
-        At ambient pressure.
+        Viscosity at ambient pressure.
     pressure_coefficient : float [1/Pa]
         d ln mu/dp at ambient pressure.
     pressure : float [Pa]

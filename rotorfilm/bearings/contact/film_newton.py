@@ -66,7 +66,7 @@ class NewtonKrylov:
     tolerance : float [1]
         Largest error of pressures and approach.
     place : Place, optional
-        Where an earlier solver made its preconditioner: this one goes on to the last bit as that would.
+        Place where an earlier solver made its preconditioner: this one goes on to the last bit as that would.
     """
 
     def __init__(self, equations: ContactEquations, tolerance: float, place: Place | None = None) -> None:
@@ -220,7 +220,7 @@ def settled_edge(linear: LinearContact, residual: Array) -> Array:
     linear : LinearContact
         Linearized where pressures are >= 0.
     residual : ndarray, shape (n,)
-        Of the equations there.
+        Residual of the equations there.
     """
     pressure, matrix = linear.place.pressure, linear.derivatives[0]
     diagonal = matrix.diagonal()
@@ -458,7 +458,7 @@ class Factors(NamedTuple):
     Attributes
     ----------
     solver : scipy.sparse.linalg.SuperLU, Strips or None
-        Of the equations for w of the cells with film, in single precision; None where there are none.
+        Solver of the equations for w of the cells with film, in single precision; None where there are none.
     laplacian : sparse matrix
         T between those cells.
     diagonal : ndarray, shape (n,)
@@ -622,9 +622,9 @@ class Cycle(NamedTuple):
     Attributes
     ----------
     factors : Factors
-        On this grid.
+        Factors on this grid.
     coarse : Cycle or None
-        On cells twice as large.
+        Coarse on cells twice as large.
     linear : LinearContact
         The equations on this grid where it was made.
     """

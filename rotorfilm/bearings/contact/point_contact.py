@@ -93,7 +93,7 @@ class PointContact:
     piezoviscosity : Piezoviscosity
         `BarusViscosity()` or `RoelandsViscosity(...)`.
     density : DowsonHigginsonDensity, optional
-        Of the lubricant; incompressible by default.
+        Density of the lubricant; incompressible by default.
     ellipticity : float [1]
         Longer over shorter half-axis of the dry contact; 1, a circle, by default.
 
@@ -203,11 +203,11 @@ class PointContact:
         Parameters
         ----------
         start : ContactState or ContactRun
-            From `stationary`, `state` or an earlier run. A run that is not complete. With the same other
-            arguments it continues to its end, and the result is bit for bit that of an uninterrupted run. If
-            it was read from a file, earlier snapshots are missing, since the file does not hold them.
+            Start from `stationary`, `state` or an earlier run. An incomplete run continues to its end if all
+            other arguments are the same; the result is bit for bit that of an uninterrupted run. If it was
+            read from a file, earlier snapshots are missing, since the file does not hold them.
         duration : float [1]
-            Of the run as a whole.
+            Duration of the run as a whole.
         W : float [1]
             Inertia of the ball, pi ellipticity m (u1 + u2)^2/(12 P0 R); 0 for a massless one.
         load : float or callable
@@ -218,8 +218,8 @@ class PointContact:
         snapshots : sequence of float [1]
             Times at which to keep the whole state.
         keep : path, optional
-            File in which the run is saved as it goes, three times a minute, and at its end, however that
-            comes; `load` reads it.
+            File in which the run is saved three times a minute, and at its end, also if it fails; `load`
+            reads it.
 
         Raises
         ------
@@ -308,7 +308,7 @@ def warn_of_alternating(share: float, V: float, Q0: float, *, stacklevel: int) -
 
 @arguments
 def perturbed(contact: PointContact, state: ContactState, share: float) -> ContactState:
-    """Return a state with pressure and approach enlarged by a share, at rest (Panovko 2011, section 4.1)."""
+    """Return a state at rest with pressure and approach enlarged by a factor (Panovko 2011, section 4.1)."""
     factor = 1.0 + require_number("share", share)
     return replace(contact.state(factor * state.pressure, factor * state.delta), t=0.0)
 
@@ -356,23 +356,23 @@ class RollingBall:
     Parameters
     ----------
     radius : float [m]
-        Of the ball.
+        Radius of the ball.
     mass : float [kg]
-        Moving with the ball against the contact.
+        Mass that moves with the ball against the contact.
     modulus, poisson_ratio : float [Pa, 1]
-        Of the ball.
+        Elastic modulus and Poisson's ratio of the ball.
     viscosity : float [Pa s]
-        At ambient pressure.
+        Viscosity at ambient pressure.
     pressure_coefficient : float [1/Pa]
-        Of the viscosity, d ln mu/dp at ambient pressure.
+        Pressure coefficient of the viscosity, d ln mu/dp at ambient pressure.
     speed : float [m/s]
-        Of the ball's center along the plane, > 0.
+        Speed of the ball's center along the plane, > 0.
     load : float [N]
         Static, its weight included.
     plane_modulus : float [Pa]
-        Of the plane; infinite (rigid), as published, by default.
+        Elastic modulus of the plane; infinite (rigid), as published, by default.
     plane_poisson_ratio : float [1]
-        Of the plane.
+        Poisson's ratio of the plane.
 
     Raises
     ------
@@ -481,7 +481,7 @@ class RollingBall:
         Parameters
         ----------
         grid, scheme : optional
-            As in `PointContact`.
+            Grid and scheme as in `PointContact`.
         roelands : bool
             Whether the viscosity follows Roelands' law, with the same slope at ambient pressure, rather than
             Barus' exponential.
@@ -642,11 +642,11 @@ HALVINGS = 4
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class MovingContact:
-    """A lubricated point contact whose ball moves as it is told: a Stepped model with the whole film.
+    """A lubricated point contact with a prescribed motion of the ball: a Stepped model with the whole film.
 
     The input z is the approach that is reached at the end of a step; on the way there it is linear in time.
-    The outputs belong to the end of the last step. Steps are second-order differences (BDF2), no longer
-    than `largest` and halved where the equations cannot be solved. `ContactLaw` is its reduced law, by
+    The outputs belong to the end of the last step. Steps are second-order differences (BDF2), no longer than
+    `largest`, and are halved where the equations cannot be solved. `ContactLaw` is its reduced law, with
     which it is linearized.
 
     Parameters
@@ -690,7 +690,7 @@ class MovingContact:
         )
 
     def start(self, u: ArrayLike) -> Levels:
-        """Return the contact that has long rested at the approach u = (z,) [m].
+        """Return the steady state of the contact at the approach u = (z,) [m].
 
         Raises
         ------
@@ -747,7 +747,7 @@ class MovingContact:
         return buffer.getvalue()
 
     def unpack(self, content: bytes) -> Levels:
-        """Return the state in bytes; raise InputError if it is of another grid."""
+        """Return the state in bytes; raise InputError if it belongs to another grid."""
         cells = self.contact.grid.shape[0] * self.contact.grid.shape[1]
         with np.load(io.BytesIO(content), allow_pickle=False) as file:
             rows = {name: file[name] for name in Level._fields}

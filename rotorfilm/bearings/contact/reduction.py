@@ -38,9 +38,9 @@ SLOWEST = 0.3
 def reduce_contact(contact: PointContact, order: int = 5, load: float = 1.0) -> ContactLaw:
     """Return the dimensionless law of a contact: z = delta, force in Hertzian loads, time in its unit.
 
-    Takes seven stationary solutions under loads about `load` and dense linear solutions at 33 frequencies:
-    some seconds on 40 x 40 cells, a minute on 64 x 64. They are kept on disk (in $ROTORFILM_CACHE, or the
-    platform's folder for caches) and found again.
+    This takes seven stationary solutions under loads about `load`, and dense linear solutions at 33
+    frequencies: some seconds on 40 x 40 cells, a minute on 64 x 64. The result is kept on disk (in
+    $ROTORFILM_CACHE, or in the platform's cache folder) and reused.
 
     Parameters
     ----------
@@ -63,10 +63,11 @@ def reduce_contact(contact: PointContact, order: int = 5, load: float = 1.0) -> 
 
 @arguments
 def interpolate_contact(contact: PointContact, order: int = 5, load: float = 1.0) -> ContactLaw:
-    """Return the law of a contact from operating points on disk of the same grid, scheme and lubricant.
+    """Return the law of a contact by interpolation between operating points on disk.
 
-    For the arguments see `reduce_contact`, which puts points on disk. The errors of the law include those
-    of the interpolation, measured by leaving out points.
+    The points must have the same grid, scheme and lubricant; `reduce_contact` writes them and explains the
+    arguments. The errors of the law include that of the interpolation, which is measured by leaving out
+    points.
 
     Raises
     ------
@@ -113,11 +114,11 @@ def in_series(laws: list[ContactLaw], shares: Array, order: int) -> tuple[Linear
     Parameters
     ----------
     laws : list of ContactLaw
-        In SI.
+        Laws in SI.
     shares : ndarray, shape (n,)
         Sum 1.
     order : int
-        Of the result.
+        Order of the result.
     """
     unit = max(law.time_scale for law in laws)
     value = np.zeros(len(FREQUENCIES), dtype=complex)
@@ -284,7 +285,7 @@ def fit_transfer(
     order : int
         Number of states, at least 1.
     weight : ndarray, shape (n,)
-        By which deviations count.
+        Weight by which deviations count.
 
     Raises
     ------

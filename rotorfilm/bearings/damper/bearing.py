@@ -120,20 +120,20 @@ class PorousCage:
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class RadialFeed:
-    """Lubricant pressed through the layer: a given velocity at the back of a sealed layer, or at the film.
+    """Lubricant fed radially: with a given velocity at the back of a sealed porous layer, or at the film.
 
-    What the layer passes from its back to the film, the rest leaving by the layer's ends, follows from
-    Darcy's law (95 % at H/L = 0.1); through a thin layer or a solid cage (jets) it is all.
+    Darcy's law gives the share of the flow that reaches the film; the rest leaves through the ends of the
+    layer (95 % reaches the film at H/L = 0.1). With a thin layer or a solid cage (jets) all of it does.
 
     Parameters
     ----------
     inflow : float [m/s]
-        Velocity towards the film, its largest along the axis; negative for suction.
+        Largest velocity along the axis, towards the film; negative for suction.
     cosine : bool
         Whether the velocity falls as cos(pi z/length) from the middle to the ends; otherwise it is uniform.
     at_film : bool
-        Whether it is what enters a film without pressure; otherwise what enters the back of the layer, as in
-        Akhverdiev et al. (11).
+        Whether `inflow` is the velocity at the film without pressure; otherwise it is that at the back of the
+        layer, as in Akhverdiev et al. (11).
     """
 
     inflow: float
@@ -173,29 +173,29 @@ LARGEST_RATIO = 0.5
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class SqueezeFilmDamper(InertialModel):
-    """A squeeze-film damper: a Reaction whose journal does not spin, so that the speed does not matter.
+    """A squeeze-film damper: a Reaction whose journal does not spin, so the speed has no effect.
 
     Parameters
     ----------
     radius, length, clearance : float [m]
-        Of the film.
+        Radius, length and clearance of the film.
     viscosity : float [Pa s]
         Dynamic viscosity of the lubricant.
     cage : PorousCage or None
         None for a solid cage.
     extent : FullFilm or HalfSommerfeld
-        Full film, tension included, or one whose negative pressures are dropped: without feed the half circle
-        towards which the rotor moves.
+        Full film, including negative pressures, or one whose negative pressures are dropped. Without feed the
+        latter is the half circle towards which the rotor moves.
     feed : RadialFeed or AxialFeed, optional
-        Besides a supply pressure at a vented back of the cage.
+        Feed in addition to a supply pressure at a vented back of the cage.
     film : SqueezeLaw
         `ShortSqueeze()`, `FiniteSqueeze()`, their maps `MapSqueeze()` and `FiniteMapSqueeze()`, which also
-        run in C inside an FMU, or, for history, `PublishedSqueeze()`.
+        run in C inside an FMU. `PublishedSqueeze()` reproduces a published film.
     seals : EndSeal or None
-        At both ends of a solid cage without feed; None for open ends.
+        Seals at both ends of a solid cage without feed; None for open ends.
     density : float [kg/m3]
-        Of the oil, whose inertia then is part of the answer: F = `force` - `mass` acceleration, for a solid
-        cage without feed. 0 without inertia.
+        Density of the oil, for a film with fluid inertia: F = `force` - `mass` acceleration. It needs a solid
+        cage without feed. 0 neglects inertia.
 
     Raises
     ------
@@ -206,14 +206,12 @@ class SqueezeFilmDamper(InertialModel):
     Warns
     -----
     ValidityWarning
-        For the short film beyond length / diameter 0.25, with its error.
+        If the short film is used beyond length / diameter 0.25; the warning states its error.
 
-    Notes
-    -----
-    Cusano & Funk (1977) without the wedge term, as a race that does not spin has none. Full films
-    have F = -(a w + b (e.w) e + k e), w = velocity/clearance, in closed form: the center is no exception.
-    Inertia to first order in the squeeze Reynolds number frequency clearance^2 density/viscosity: up to 10,
-    a ruptured film to 5; see `require_range`.
+    Notes ----- Equations of Cusano & Funk (1977) without the wedge term, since the race does not spin. Full
+    films have F = -(a w + b (e.w) e + k e), w = velocity/clearance, in closed form, also at the center. Fluid
+    inertia is of first order in the squeeze Reynolds number, frequency clearance^2 density/viscosity: a full
+    film is valid up to 10, a ruptured film up to 5; see `require_range`.
     """
 
     radius: float
@@ -257,12 +255,12 @@ class SqueezeFilmDamper(InertialModel):
 
     @property
     def nominal_force(self) -> float:
-        """Force of a middling motion at NOMINAL_SPEED [N]."""
+        """Typical force at NOMINAL_SPEED [N]."""
         return self.force_scale * NOMINAL_SPEED
 
     @property
     def largest_eccentricity_ratio(self) -> float:
-        """Eccentricity ratio to which the film is meant: the last node of a map; 0.95 to 0.99 for others."""
+        """Largest eccentricity ratio of the film: the last node of a map; 0.95 to 0.99 for others."""
         reach = self._options.largest_eccentricity_ratio
         if isinstance(self.bound_film, RadialTable):
             reach = LARGEST_TABULATED
@@ -270,7 +268,7 @@ class SqueezeFilmDamper(InertialModel):
 
     @property
     def is_built(self) -> bool:
-        """Whether it has seals or inertia."""
+        """Whether it has seals or fluid inertia."""
         return self.seals is not None or self.has_inertia
 
     @property
@@ -325,7 +323,7 @@ class SqueezeFilmDamper(InertialModel):
 
     @property
     def squeeze_case(self) -> SqueezeCase:
-        """Itself as its film sees it."""
+        """The data of this damper that its film needs."""
         modes = layer_modes(self.layer)
         ends = (
             self.feed if isinstance(self.feed, AxialFeed) else AxialFeed(start_pressure=0.0, end_pressure=0.0)
@@ -385,7 +383,7 @@ class SqueezeFilmDamper(InertialModel):
 
     @property
     def has_inertia(self) -> bool:
-        """Whether the inertia of the oil counts."""
+        """Whether the inertia of the oil is included."""
         return self.density > 0.0
 
     @cached_property
@@ -394,14 +392,15 @@ class SqueezeFilmDamper(InertialModel):
         return self._options.inertia(self.squeeze_case)
 
     def mass(self, position: ArrayLike, velocity: ArrayLike | None = None, speed: ArrayLike = 0.0) -> Array:
-        """Return the mass that the oil adds to the rotor [kg], shape (2, 2, ...); 0 without density.
+        """Return the added mass of the oil [kg], shape (2, 2, ...); 0 without density.
 
         Parameters
         ----------
         position : array_like, shape (2, ...) [m]
             Journal center from the bearing center.
         velocity : array_like, shape (2, ...) [m/s], optional
-            Of a ruptured film, whose mass depends on its direction; a full one takes none.
+            Velocity of the journal, for a ruptured film, whose added mass depends on its direction; not
+            needed for a full film.
         speed : array_like, shape (...) [rad/s]
             Not used.
 
@@ -435,12 +434,12 @@ class SqueezeFilmDamper(InertialModel):
         return abs(frequency) * self.clearance**2 * self.density / self.viscosity
 
     def require_range(self, frequency: float) -> None:
-        """Warn where the inertia of first order ends, and raise InputError far beyond.
+        """Warn where inertia to first order is no longer valid, and raise InputError far beyond.
 
         Parameters
         ----------
         frequency : float [rad/s]
-            Of the motion.
+            Frequency of the motion.
         """
         require_inertia_range(self.reynolds_number(frequency), cavitated=self.squeeze_case.cavitated)
 
@@ -450,7 +449,7 @@ class SqueezeFilmDamper(InertialModel):
         Parameters
         ----------
         frequency : float [rad/s]
-            Of the motion; 0 for slow motion.
+            Frequency of the motion; 0 for slow motion.
 
         Raises
         ------
@@ -473,7 +472,7 @@ class SqueezeFilmDamper(InertialModel):
         ).small_motion(frequency)
 
     def convection(self, position: Array, velocity: Array) -> Array:
-        """Return the force of convection [N], shape (2, ...), of arrays of equal batch shape; in `force`."""
+        """Return the convective inertia force [N], shape (2, ...), which is part of `force`."""
         if not self.has_inertia:
             return np.zeros_like(position)
         return self.inertia_scale * self.film_inertia.convection(*self._scaled(position, velocity))
@@ -716,14 +715,14 @@ def damper_groups(
     ----------
     damper : PorousDamper
     mass : float [kg]
-        Carried by this damper.
+        Mass that this damper carries.
     speed : float [rad/s]
-        Of the rotor.
+        Speed of the rotor.
     stiffness : float [N/m]
-        Of the retainer springs.
+        Stiffness of the retainer springs.
     unbalance : float [kg m]
     reference_speed : float [rad/s], optional
-        w_r; the speed itself by default.
+        Reference speed w_r; by default the speed itself.
 
     Raises
     ------

@@ -46,7 +46,7 @@ class SqueezeMatrices(Readable):
     added_mass : ndarray, shape (2, 2) [kg]
         The same by acceleration.
     frequency : float [rad/s]
-        Of the motion.
+        Frequency of the motion.
     """
 
     damping: Array
@@ -60,19 +60,19 @@ def hole_small_motion(
 ) -> SqueezeMatrices:
     """Return damping and added mass of small motion about the center, of a damper with feed holes.
 
-    Exact in the frequency, for any length and seals. The stiffness by the pressure of the supply is left out,
-    and so are check valves: oil may flow back through a hole as easily as in.
+    The result is exact in the frequency, for any length and any seals. The stiffness due to the supply
+    pressure is neglected. There are no check valves: oil flows back through a hole as easily as in.
 
     Parameters
     ----------
     damper : SqueezeFilmDamper
-        Solid, with a full film.
+        Damper with a solid cage and a full film.
     holes : tuple of FeedHole
-        At mid-length, small beside the length.
+        Feed holes at mid-length, small compared with the length.
     conductance : float [m3/(Pa.s)]
         Flow through a hole, with its pipe, per pressure.
     frequency : float [rad/s]
-        Of the motion; 0 for slow motion.
+        Frequency of the motion; 0 for slow motion.
 
     Raises
     ------
@@ -161,17 +161,17 @@ def feed_squeeze_number(
 ) -> float:
     """Return flow/(pi diameter length amplitude frequency) [1]: below 1 the ends may draw in air.
 
-    Diaz & San Andres' number, their definition not seen in print.
+    This is the number of Diaz & San Andres; their definition was not available in print.
 
     Parameters
     ----------
     damper : SqueezeFilmDamper
     flow : float [m3/s]
-        Of oil fed to the film.
+        Flow of oil fed to the film.
     amplitude : float [m]
         Radius of the orbit.
     frequency : float [rad/s]
-        Of the motion.
+        Frequency of the motion.
 
     Raises
     ------
@@ -187,11 +187,11 @@ def feed_squeeze_number(
 
 @arguments
 def aerated_damper(damper: SqueezeFilmDamper, air_fraction: float) -> SqueezeFilmDamper:
-    """Return a damper whose oil is a homogeneous mixture with air: the least damping and mass of that.
+    """Return a damper with aerated oil: the lower bound of damping and added mass.
 
-    Viscosity and density of the oil times (1 - air_fraction); the viscosity of the mixture lies between that
-    and the oil's own, and pressure takes the air back, so that the truth lies between both dampers. Without a
-    measured fraction this is a guess.
+    Viscosity and density are those of the oil times (1 - air_fraction). The viscosity of a real mixture lies
+    between this and that of the oil, and pressure dissolves the air. So the truth lies between both dampers.
+    Without a measured air fraction this is a guess.
 
     Parameters
     ----------

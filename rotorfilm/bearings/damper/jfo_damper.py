@@ -57,25 +57,25 @@ REMEDY = (
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class DamperSupply:
-    """What feeds a squeeze-film damper that conserves its oil: a groove all round, holes, or an oil bath.
+    """Oil supply of a mass-conserving squeeze-film damper: a groove all round, feed holes, or an oil bath.
 
-    Pressures count from ambient pressure.
+    All pressures are gauge pressures (0 is ambient).
 
     Parameters
     ----------
     supply_pressure : float [Pa]
-        In the groove or the holes.
+        Supply pressure in the groove or the holes.
     circumferential_groove : float or None [m]
-        Width of a groove all round in the middle of the length, which has no film; None for none.
+        Width of a circumferential groove at mid-length, where there is no film; None for no groove.
     end_groove : bool
-        Whether the oil comes from a groove all round beyond one end of the film; the other end is open.
+        Whether a circumferential groove beyond one end of the film supplies the oil; the other end is open.
     feed_holes : tuple of FeedHole
-        In the middle of the length.
+        Feed holes in the middle of the length.
     cavitation_pressure : float [Pa]
-        In the cavity, not above 0.
+        Cavitation pressure in the cavity, not above 0.
     submerged : bool
-        Whether there is oil around open ends. It is what they draw in where the film is below ambient
-        pressure; in air that would be air, of which there is a warning.
+        Whether there is oil around open ends, which they draw in where the film is below ambient pressure.
+        Otherwise they would draw in air, and a warning says so.
 
     Raises
     ------
@@ -126,11 +126,11 @@ class DamperSupply:
 
     @property
     def turns_alike(self) -> bool:
-        """Whether the supply is the same all round, so that a centered circular orbit is a steady state."""
+        """Whether the supply is the same at all angles, so a centered circular orbit is steady."""
         return not self.feed_holes
 
     def warn_of_air(self, drawn_in: float, side_flow: float) -> None:
-        """Warn where ends in air would draw in air."""
+        """Warn if the open ends would draw in air."""
         warn_of_air(self.submerged, drawn_in, side_flow)
 
 
@@ -144,25 +144,26 @@ CIRCULAR = 1e-9
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class JFODamper(MassConserving):
-    """A squeeze-film damper that conserves its oil (Jakobsson, Floberg and Olsson); its cage is solid.
+    """A squeeze-film damper with mass-conserving cavitation (Jakobsson, Floberg and Olsson) and a solid cage.
 
-    The race does not spin: oil in the cavity stays where it is, and only pressure moves it. So the cavity
-    remembers the last turn, and what fills it again is the supply. There is a force on a centered circular
-    orbit, steady in axes that turn with it, or at rest; any other motion wants its past. That is what
-    `simulate` steps through with the rotor, and `damper_turn` for a motion that repeats itself: the damper is
-    a Stepped model too. On 72 x 16 cells the force is 0.7 % above its limit.
+    The race does not spin: oil in the cavity stays where it is, only pressure moves it, and the supply
+    refills the cavity. So the force depends on the past motion. `orbit` has the force on a centered circular
+    orbit, which is steady in rotating axes. For any other motion the damper is a Stepped model: `simulate`
+    steps it together with the rotor, and `damper_turn` finds its force over a periodic motion. On 72 x 16
+    cells the force is 0.7 % above its limit on fine grids.
 
     Parameters
     ----------
     radius, length, clearance : float [m]
-        Of the film; the length with a groove in its middle.
+        Radius, length and clearance of the film; the length includes a groove in the middle.
     viscosity : float [Pa s]
     supply : DamperSupply
     stiffness : float [N/m]
-        Of retainer springs, preloaded so that they carry the static load where the rotor is centered. Their
-        force is part of `force` and of steps in time, not of that of the film: `orbit`, `damper_turn`.
+        Stiffness of retainer springs, preloaded so that they carry the static load where the rotor is
+        centered. Their force is part of `force` and of steps in time, but not of the film force of `orbit`
+        and `damper_turn`.
     cells : tuple of int
-        Lines around the film and cells along half its length, about; even numbers.
+        Approximate numbers of lines around the film and of cells along half its length; even.
 
     Raises
     ------
@@ -215,7 +216,7 @@ class JFODamper(MassConserving):
         eccentricity_ratio : float [1]
             Radius of the orbit / clearance, at least 0 and below 1.
         speed : float [rad/s]
-            Of the orbit, of either sign.
+            Speed of the orbit, of either sign.
 
         Raises
         ------
@@ -239,20 +240,21 @@ class JFODamper(MassConserving):
     ) -> NDArray[np.complex128]:
         """Return K(s) of the film about an orbit, in radial and tangential axes, shape (2, 2) [N/m].
 
-        -K q e^(s t) is the change of the force when the rotor moves by q e^(s t) in axes that turn with it.
+        When the rotor moves by q e^(s t) in these axes, the force changes by -K q e^(s t).
 
         Parameters
         ----------
         eccentricity_ratio, speed : float [1], [rad/s]
-            As in `orbit`; speed 0 for a rotor at rest.
+            Eccentricity ratio and speed as in `orbit`; speed 0 for a rotor at rest.
         s : complex [1/s]
         """
         return self._stiffness(self._turning(eccentricity_ratio, require_number("speed", speed)), s)
 
     def reynolds_force(self, position: ArrayLike, velocity: ArrayLike) -> Array:
-        """Return the force of the same film with Reynolds' rupture, which makes the oil that it takes.
+        """Return the force of the same film with Reynolds' rupture, which does not conserve the oil.
 
-        Of the film alone, with its supply, on the same cells; for any motion, as it has no memory.
+        This is the force of the film alone, with its supply, on the same cells. It holds for any motion, as
+        it does not depend on the past.
 
         Parameters
         ----------
@@ -351,9 +353,10 @@ class JFOOrbit(Drawable):
     ----------
     eccentricity_ratio : float [1]
     speed : float [rad/s]
-        Of the orbit.
+        Speed of the orbit.
     radial_force, tangential_force : float [N]
-        Of the film on the rotor, outward and in the sense of rotation by +z.
+        Radial force and tangential force of the film on the rotor, outward and in the sense of rotation by
+        +z.
     angle : ndarray, shape (N,) [rad]
         Lines, from the line of centers, where the gap is least.
     axial : ndarray, shape (M,) [m]
@@ -365,11 +368,11 @@ class JFOOrbit(Drawable):
     side_flow, drawn_in : float [m3/s]
         Oil that leaves through open ends, and oil that enters there.
     inflow : float [m3/s]
-        Oil from the groove, less what goes back into it.
+        Net flow of oil from the groove.
     power_loss : float [W]
         Power of the motion that becomes heat.
     mass_defect : float [1]
-        Oil that cells make or lose, over what enters the film: roundoff.
+        Error of the oil balance of the cells, relative to the inflow: roundoff.
     solutions : int
         Linear systems that were solved on these cells.
     """
@@ -416,7 +419,7 @@ class ExtrapolatedDamper(StaticReaction):
     Parameters
     ----------
     damper : JFODamper
-        Without springs.
+        Damper without springs.
     """
 
     largest_eccentricity_ratio: ClassVar[float] = 0.95
@@ -462,16 +465,16 @@ FEWEST_STEPS = 24
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class DamperTurn(Drawable):
-    """A damper over one turn of a periodic motion: n equal steps, N lines with M cells each.
+    """A damper over one period of a periodic motion: n equal steps, N lines with M cells each.
 
     Attributes
     ----------
     time : ndarray, shape (n,) [s]
-        From the start of the turn to the end of each step.
+        Time from the start of the turn to the end of each step.
     position : ndarray, shape (2, n) [m]
-        Of the rotor, at those times.
+        Position of the rotor, at those times.
     force : ndarray, shape (2, n) [N]
-        Of the film on the rotor.
+        Force of the film on the rotor.
     angle : ndarray, shape (N,) [rad]
         Lines, in the bearing frame from +x towards +y.
     axial : ndarray, shape (M,) [m]
@@ -481,13 +484,14 @@ class DamperTurn(Drawable):
     oil_content : ndarray, shape (n, N, M) [1]
         Share of the gap that is oil: 1 in the film, less in the cavity.
     side_flow, drawn_in, inflow : float [m3/s]
-        Mean of the oil that leaves through open ends, that enters there, and that comes from groove or holes.
+        Mean flow of oil that leaves through open ends, that enters there, and that comes from groove or
+        holes.
     work : float [J]
-        What the film takes from the motion in a turn, which becomes heat.
+        Energy that the film dissipates in one period.
     turns : int
-        Turns until film and motion repeated themselves.
+        Number of periods until film and motion repeated themselves.
     change : float [1]
-        Of the force from the last turn but one to the last, over the largest force.
+        Change of the force between the last two periods, relative to the largest force.
     """
 
     _shown: ClassVar[tuple[str, ...]] = ("peak_force",)
@@ -521,20 +525,21 @@ def damper_turn(
     most_turns: int = 40,
     tolerance: float = 1e-6,
 ) -> DamperTurn:
-    """Return the film of a damper over a turn of a motion that repeats itself: any orbit, with any supply.
+    """Return the film of a damper over one period of a periodic motion: any orbit, with any supply.
 
-    It starts from the film of a rotor at rest, which is full, and goes on in steps of second order (BDF2)
-    until its force repeats itself.
+    The computation starts from the full film of a rotor at rest and continues in steps of second order (BDF2)
+    until the force is periodic.
 
     Parameters
     ----------
     damper : JFODamper
     position : array_like, shape (2, n) [m]
-        Of the rotor at n equal times of a turn, at least 24; 192 are good for 0.2 % of the force.
+        Position of the rotor at n equal times of a turn, at least 24; with 192 the force has an error of 0.2
+        %.
     speed : float [rad/s]
         Turns of the motion in 2 pi seconds, positive: with the rotor's unbalance, its speed.
     most_turns : int
-        After which to give up.
+        Largest number of periods before an error is raised.
     tolerance : float [1]
         Change of the force from turn to turn, over the largest force, at which it repeats itself.
 
@@ -552,10 +557,8 @@ def damper_turn(
     ValidityWarning
         If ends in air draw in air.
 
-    Notes
-    -----
-    When the last cell of a cavity fills, its pressure steps: the force scatters there by some per cent of the
-    largest on 64 lines, and means and work are good.
+    Notes ----- When the last cell of a cavity fills, its pressure jumps. On 64 lines the force then scatters
+    by some per cent of its largest value; mean values and work are not affected.
     """
     require_kind("damper", damper, JFODamper, "a JFODamper")
     require_positive("speed", require_number("speed", speed))

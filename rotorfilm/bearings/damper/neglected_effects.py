@@ -32,7 +32,7 @@ class JudgedDamper(SharedReaction):
     damper : SqueezeFilmDamper
         A solid one without feed.
     frequency : float [rad/s]
-        Of the motion.
+        Frequency of the motion.
     """
 
     damper: SqueezeFilmDamper
@@ -165,7 +165,7 @@ def neglected_force(
     e, w, b : ndarray, shape (2, n) [1], [1/s], [1/s2]
         Position, velocity and acceleration / clearance.
     frequency : float [rad/s]
-        Of the motion.
+        Frequency of the motion.
     viscous : float [N s]
         viscosity radius length^3/clearance^2, that of the length which counts.
     inertial : float [kg m]

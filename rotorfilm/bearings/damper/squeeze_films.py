@@ -635,7 +635,7 @@ class FiniteSqueezeFilm:
     layer : PorousLayer or None
         None for a solid cage.
     modes : LayerModes
-        Of that layer.
+        Modes of that layer.
     feed : ndarray, shape (N,) [1/s]
         Feed of each group of modes, weight included.
     """

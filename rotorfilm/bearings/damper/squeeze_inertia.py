@@ -42,9 +42,9 @@ class SqueezeImpedance(Readable):
     ----------
     damping : float [N s/m]
     added_mass : float [kg]
-        Of the oil, which moves along with the rotor.
+        Added mass of the oil, which moves along with the rotor.
     frequency : float [rad/s]
-        Of the motion.
+        Frequency of the motion.
     """
 
     damping: float
@@ -57,14 +57,14 @@ class SqueezeImpedance(Readable):
 class FilmSegment:
     """A piece of the axis of a damper with one film thickness: a land, or a groove all round.
 
-    Of a groove the depth that counts is below the true one where oil recirculates in it: depth is an input.
+    Give the effective depth of a groove: it is below the true one where oil recirculates in the groove.
 
     Parameters
     ----------
     length : float [m]
-        Along the axis.
+        Length along the axis.
     clearance : float [m]
-        Radial: of a groove its depth and that of the lands beside it.
+        Radial clearance; for a groove its depth plus the clearance of the lands beside it.
 
     Raises
     ------
@@ -82,18 +82,18 @@ class FilmSegment:
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class SegmentedDamper:
-    """Lands and grooves of a squeeze-film damper in small motion about the center, its film full.
+    """A squeeze-film damper of lands and grooves, in small motion about the center, with a full film.
 
     Parameters
     ----------
     radius : float [m]
     segments : tuple of FilmSegment
-        From one end to the other.
+        Segments from one end to the other.
     viscosity : float [Pa s]
     density : float [kg/m3]
         0 without inertia.
     seals : EndSeal or None
-        At both ends; None for open ends.
+        Seals at both ends; None for open ends.
 
     Raises
     ------
@@ -122,7 +122,7 @@ class SegmentedDamper:
         Parameters
         ----------
         frequency : float [rad/s]
-            Of the motion, not negative; 0 for slow motion, where the mass is that of first order.
+            Frequency of the motion, not negative; 0 for slow motion, where the mass is that of first order.
 
         Raises
         ------
@@ -175,7 +175,7 @@ def slow_frequency(height: float, viscosity: float, density: float) -> float:
     Parameters
     ----------
     height : float [m]
-        Of the film.
+        Height of the film.
     viscosity : float [Pa s]
     density : float [kg/m3]
     """
@@ -188,7 +188,7 @@ def film_impedance(height: float, viscosity: float, density: float, frequency: f
     Parameters
     ----------
     height : float [m]
-        Of the film.
+        Height of the film.
     viscosity : float [Pa s]
     density : float [kg/m3]
     frequency : float [rad/s]
@@ -277,7 +277,7 @@ def warn_of_short_seals(slenderness: float, end_leak: float) -> None:
     slenderness : float [1]
         Length / diameter.
     end_leak : float [1]
-        As of `squeeze_motions`.
+        End leak as of `squeeze_motions`.
     """
     short = slenderness**2 / 3.0 + slenderness / end_leak
     excess = short / land_share(slenderness, end_leak).real - 1.0

@@ -37,7 +37,7 @@ class SqueezeCase(NamedTuple):
     layer : PorousLayer or None
         None for a solid cage.
     modes : LayerModes
-        Of the layer.
+        Modes of the layer.
     feed : ndarray, shape (N,) [1/s]
         Feed of each group of modes, weight included.
     ends : tuple of two floats [1/s]
@@ -92,7 +92,7 @@ class SqueezeOptions:
 
 @dataclass(frozen=True)
 class ShortSqueeze(SqueezeOptions):
-    """Short film: no flow around the circumference, neither in the film nor in the layer."""
+    """Short film: flow along the axis only, in the film and in the porous layer."""
 
     slenderness_limit: ClassVar[float] = 0.25
     """Largest length / diameter for which the film is meant [1]."""
@@ -108,7 +108,7 @@ class ShortSqueeze(SqueezeOptions):
 
 @dataclass(frozen=True)
 class FiniteSqueeze(SqueezeOptions):
-    """Full film of finite length, some milliseconds for a force: the reference of the short film."""
+    """Full film of finite length: the reference for the short film. A force takes some milliseconds."""
 
     largest_eccentricity_ratio: ClassVar[float] = LARGEST
     """Eccentricity ratio to which the film is meant [1]."""
@@ -128,12 +128,12 @@ class FiniteSqueeze(SqueezeOptions):
 
 @dataclass(frozen=True)
 class PublishedSqueeze(SqueezeOptions):
-    """Historical: small motion as published by Akhverdiev et al., with the signs corrected.
+    """Film for small motion as published by Akhverdiev et al., with corrected signs; for comparison only.
 
-    Full film, linear in eccentricity and velocity. The leak is that of a vented back with the flux number
-    Delta1 = 12 grading/(grading + 6) of the authors' polynomial through the layer: no effect without grading
-    and a trend opposite to that of a real layer. A radial feed passes a film that does not leak. Equations
-    (37)-(40); docs/damper_films.md has the errata. Not for design.
+    The film is full, and linear in eccentricity and velocity. The leakage is that of a vented back with the
+    flux number Delta1 = 12 grading/(grading + 6), from the authors' polynomial through the layer. It has no
+    effect without grading, and a trend opposite to that of a real layer. Equations (37)-(40);
+    docs/damper_films.md has the errata. Do not use it for design.
     """
 
     def bind(self, case: SqueezeCase) -> SqueezeFilm:
@@ -229,9 +229,9 @@ class ZoneInertia:
     Parameters
     ----------
     share : float [1]
-        Of the short film's inertia: 1, or that of a film of finite length in small motion about the center,
-        where it is exact, since acceleration turns the half circle there. At eccentricity ratio 0.5 the mass
-        along the motion is then 6 and 14 % too small at length / diameter 0.5 and 1.
+        Share of the short film's inertia: 1, or that of a film of finite length in small motion about the
+        center, where it is exact, since acceleration turns the half circle there. At eccentricity ratio 0.5
+        the mass along the motion is then 6 and 14 % too small at length / diameter 0.5 and 1.
     """
 
     share: float = 1.0
@@ -514,8 +514,8 @@ class SqueezeMotions(NamedTuple):
     Attributes
     ----------
     damping, mass : tuple of two floats
-        Along the radius and across it; [viscosity radius length^3/clearance^3], [density radius
-        length^3/clearance].
+        Damping and mass along the radius and across it; [viscosity radius length^3/clearance^3], [density
+        radius length^3/clearance].
     convection : tuple of three floats
         Radial force of w_r^2, radial of w_t^2, tangential of w_r w_t; [density radius length^3].
     """
@@ -666,16 +666,16 @@ def _harmonics(eps: float) -> int:
 class EndSeal:
     """Equal seals at both ends of a squeeze film: flow out of an end = leakage * pressure * circumference.
 
-    Damping and added mass of a sealed damper are set by its seals, not by its film, and no seal is known to
-    better than some tenths: its uncertainty belongs to every answer. An O-ring is tight (leakage 0), with a
-    stiffness of its own that `with_springs` adds.
+    The seals, not the film, decide the damping and the added mass of a sealed damper, and the leakage of a
+    seal is rarely known to better than some tenths. So its uncertainty is part of every answer. An O-ring is
+    tight (leakage 0); `with_springs` adds its stiffness.
 
     Parameters
     ----------
     leakage : float [m2/(Pa.s)]
         G_s, volume per time, circumference and pressure; 0 for a tight seal.
     uncertainty : float [1]
-        Of the leakage, relative: it may be that much larger or smaller. Below 1.
+        Uncertainty of the leakage, relative: it may be that much larger or smaller. Below 1.
 
     Raises
     ------
@@ -701,12 +701,12 @@ class EndSeal:
 
 @arguments
 def gap_seal(*, height: float, length: float, viscosity: float) -> EndSeal:
-    """Return the seal that is a narrow gap: leakage height^3/(12 viscosity length).
+    """Return the end seal that a narrow gap forms: leakage = height^3/(12 viscosity length).
 
     Parameters
     ----------
     height, length : float [m]
-        Of the gap, along the radius and along the axis.
+        Height and length of the gap, along the radius and along the axis.
     viscosity : float [Pa s]
 
     Raises
@@ -721,20 +721,20 @@ def gap_seal(*, height: float, length: float, viscosity: float) -> EndSeal:
 
 @arguments
 def leak_test_seal(*, flow: float, pressure: float, radius: float, uncertainty: float = 0.0) -> EndSeal:
-    """Return the seal of a leak test: leakage flow/(2 pi radius pressure).
+    """Return the end seal from a leak test: leakage = flow/(2 pi radius pressure).
 
-    A slit at the butt of one piston ring counts as spread over the circumference.
+    The slit at the joint of a piston ring is treated as spread over the circumference.
 
     Parameters
     ----------
     flow : float [m3/s]
-        Out of one end.
+        Flow out of one end.
     pressure : float [Pa]
-        Inside, above that outside.
+        Pressure difference across the seal.
     radius : float [m]
-        Of the film.
+        Radius of the film.
     uncertainty : float [1]
-        As of an `EndSeal`.
+        Uncertainty as for an `EndSeal`.
 
     Raises
     ------
@@ -756,8 +756,8 @@ class SealedShortFilm:
     film : SqueezeFilm
         The same with open ends.
     damping : float [1]
-        Of the seals: pi c^3/(2 viscosity G_s L) in the film's units, half of that where the film ruptures,
-        since the pressure at the ends has the sign of that in the film.
+        Damping of the seals: pi c^3/(2 viscosity G_s L) in the film's units, half of that where the film
+        ruptures, since the pressure at the ends has the sign of that in the film.
     """
 
     film: SqueezeFilm

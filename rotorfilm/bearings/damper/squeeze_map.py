@@ -76,7 +76,7 @@ class SqueezeTable:
     cavitated : bool
         Whether the film ruptures.
     table : MapTable
-        In units of viscosity * radius * length^3 / clearance^2 per 1/s.
+        Table in units of viscosity * radius * length^3 / clearance^2 per 1/s.
     """
 
     slenderness: float | None
@@ -109,7 +109,7 @@ def squeeze_table(
         None for a solid cage.
     cavitated : bool
     cells : (int, int)
-        Over the eccentricity ratio and the direction of the velocity.
+        Cells over the eccentricity ratio and the direction of the velocity.
     """
     if slenderness is None:
         table = _short_table(layer, cavitated, cells)
@@ -215,7 +215,7 @@ class TabulatedSqueeze(SqueezeOptions):
 @quantities
 @dataclass(frozen=True)
 class MapSqueeze(TabulatedSqueeze):
-    """Short film from a table: within 1e-4 of `ShortSqueeze()`, some hundred times faster alone.
+    """Short film from a table: within 1e-4 of `ShortSqueeze()`, and about a hundred times faster.
 
     The table is made at the first use of a damper and kept in memory for dampers of the same layer.
 
@@ -225,7 +225,7 @@ class MapSqueeze(TabulatedSqueeze):
         Cells of the table over the eccentricity ratio and over the direction of the velocity; a full film
         takes three times as many of the latter.
     table : SqueezeTable, optional
-        Of this damper, as `tabulated` gives it; made by default.
+        Table of this damper, as `tabulated` gives it; made by default.
     """
 
     is_short: ClassVar[bool] = True
@@ -252,7 +252,8 @@ class MapSqueeze(TabulatedSqueeze):
 class FiniteMapSqueeze(TabulatedSqueeze):
     """Film of finite length from a table of its potential, flow around the circumference included.
 
-    The table takes some seconds for a damper and is kept on disk; L/D to 2, eccentricity ratio to 0.985.
+    It covers L/D up to 2 and eccentricity ratios up to 0.985. The table takes some seconds to make for each
+    damper and is kept on disk.
 
     Parameters
     ----------
@@ -260,7 +261,7 @@ class FiniteMapSqueeze(TabulatedSqueeze):
         Cells of the table over the eccentricity ratio and over the direction of the velocity; a full film
         takes three times as many of the latter.
     table : SqueezeTable, optional
-        Of this damper, as `tabulated` gives it; made, or found on disk, by default.
+        Table of this damper, as `tabulated` gives it; made, or found on disk, by default.
     """
 
     is_short: ClassVar[bool] = False
@@ -293,7 +294,7 @@ class SqueezeMapFilm(KernelFilm):
     Parameters
     ----------
     kernel : MapKernel
-        Of any slenderness.
+        Kernel of any slenderness.
     """
 
     kernel: MapKernel
@@ -309,7 +310,7 @@ class MappedSqueezeFilm:
     Parameters
     ----------
     film : SqueezeMapFilm
-        In units of a squeeze film.
+        Film in units of a squeeze film.
     one_slenderness : bool
         Whether the table is that of one length / diameter only, as that of a film of finite length.
     """

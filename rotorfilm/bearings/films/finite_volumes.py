@@ -329,7 +329,7 @@ class RingKernel(FilmKernel):
     pad : bool
         Whether the second of two spans is a pad of its own, which the journal touches on its arc only.
     mobility : Mobility or None
-        With a density the force is that at a speed too; see `FilmKernel.force`.
+        Mobility with a density the force is that at a speed too; see `FilmKernel.force`.
     resting : bool
         Whether the lines rest, uniform on every span, where the journal moves.
     per_rate : float [s]
@@ -579,9 +579,9 @@ class Stencil(NamedTuple):
     Attributes
     ----------
     around : ndarray
-        From a node to that on the next line.
+        Around from a node to that on the next line.
     along : ndarray
-        From a node to the next one towards the bearing's end, and from the last one to there.
+        Along from a node to the next one towards the bearing's end, and from the last one to there.
     source : ndarray [1/s]
         What flows out of a node where there is film.
     held : ndarray of bool

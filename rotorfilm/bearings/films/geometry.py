@@ -25,7 +25,7 @@ class Groove:
     width : float [rad]
         Angle covered, 0 (a line) <= width < 2 pi.
     length : float or None [m]
-        Along the axis, in the middle of the bearing; None for a groove that is open at both ends of it.
+        Length along the axis, centered; None for a groove that is open at both ends of the bearing.
     """
 
     center: float
@@ -46,14 +46,14 @@ class Groove:
 class FeedHole:
     """A round hole in the wall at mid-length, filled with lubricant at the supply pressure.
 
-    The film sees it as the square of the same area.
+    The film model replaces it by a square of the same area.
 
     Parameters
     ----------
     center : float [rad]
         Angle of its middle in the bearing frame, from +x towards +y.
     diameter : float [m]
-        Of a round hole.
+        Diameter of a round hole.
     """
 
     center: float
@@ -80,7 +80,7 @@ class Pocket:
     width : float [rad]
         Angle covered, 0 (a line) <= width < 2 pi.
     share : float [1]
-        Of the bearing's length that it covers, 0 < share < 1.
+        Share of the bearing's length that it covers, 0 < share < 1.
     """
 
     center: float
@@ -127,7 +127,7 @@ class SunkArc:
     start, end : float [rad]
         Angles of its edges in the bearing frame.
     share : float [1]
-        Of the bearing's length that it covers, 0 < share <= 1.
+        Share of the bearing's length that it covers, 0 < share <= 1.
     depth_ratio : float [1]
         Depth below the wall over the clearance.
     """
@@ -152,7 +152,7 @@ class Span:
     held : float | None [1/s]
         Pressure p c^2/(12 viscosity R^2) of an opening; None for film.
     share : float [1]
-        Of the bearing's length that an opening covers; beside it there is film.
+        Share of the bearing's length that an opening covers; beside it there is film.
     """
 
     start: float
@@ -398,7 +398,7 @@ def _fold(view: _View) -> int:
 
 @dataclass(frozen=True)
 class FreeOnset:
-    """The film starts where Reynolds' equation lets it: oil is there wherever pressure can be."""
+    """The film starts where Reynolds' equation allows it: oil is available wherever pressure can build up."""
 
     line: ClassVar[float | None] = None
     """No line is held."""
@@ -409,10 +409,10 @@ class FreeOnset:
 
 @dataclass(frozen=True)
 class MaximumGapOnset:
-    """The film starts at the widest gap, opposite to the journal's displacement, with which the line turns.
+    """The film starts at the widest gap, opposite to the journal's displacement, and turns with it.
 
-    So do the printed tables of Butenschoen (1976) and others. At the center the gap is equal all round, and
-    the force depends on the direction from which it is approached.
+    The printed tables of Butenschoen (1976) and others do the same. At the center the gap is the same
+    everywhere, and the force depends on the direction from which the journal approaches it.
     """
 
     line: ClassVar[float | None] = None
@@ -425,7 +425,7 @@ class MaximumGapOnset:
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class FixedOnset:
-    """The film starts at a line that stays in the bearing, such as a supply that is not a groove.
+    """The film starts at a line that is fixed in the bearing, such as a supply that is not a groove.
 
     Parameters
     ----------
@@ -473,7 +473,7 @@ class HalfSommerfeld:
 
 @dataclass(frozen=True)
 class FullFilm:
-    """Sommerfeld film: no rupture, tension included."""
+    """Full (Sommerfeld) film: no rupture, negative pressures included."""
 
     searched: ClassVar[bool] = False
     """The film is solved full."""

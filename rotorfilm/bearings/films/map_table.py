@@ -279,9 +279,9 @@ class MapTable(StoredTable):
         slenderness : float [1]
             Bearing length / diameter.
         wall : (float, float) [1]
-            Length / diameter of the film at the wall, as which it goes on beyond the table, and the share of
-            that film in units of a journal. With 0, or where the last node is no such film, J goes on as a
-            power of X.
+            Length / diameter of the asymptotic film at the wall, which continues the table, and the share of
+            that film in units of a journal. With 0, or where the last node is not asymptotic, J continues as
+            a power of X.
 
         Raises
         ------
@@ -343,7 +343,7 @@ def told(report: Report, of: str, folder: Path) -> Report:
     of : str
         What the table is of.
     folder : Path
-        Where it will be kept.
+        Folder where it will be kept.
     """
     said: list[str] = []
 

@@ -35,11 +35,11 @@ class ConservedCells(NamedTuple):
     Attributes
     ----------
     angle : ndarray, shape (N,) [rad]
-        Of the lines; of a film that is no ring places in any unit.
+        Angle of the lines; of a film that is no ring places in any unit.
     spacing : ndarray, shape (N,) [rad]
-        From a line to the next one.
+        Spacing from a line to the next one.
     width : ndarray, shape (M,)
-        Of the cells along the bearing, as fractions of what they cover.
+        Width of the cells along the bearing, as fractions of what they cover.
     opening : ndarray of int, shape (N, M)
         Number of the opening of which a cell is part; `FILM` for none.
     grooved : bool
@@ -214,7 +214,7 @@ class OilCells:
     along : ndarray, shape (N, M + 1)
         Conductance of the faces of a line, from its first end to its last; 0 where it is closed.
     first_pressure, last_pressure : float [1/s]
-        At the ends of the lines.
+        First pressure and last pressure at the ends of the lines.
     opening : ndarray of int32, shape (N, M)
         Number of a cell's opening; -1 for film.
     fed : ndarray of bool, shape (openings,)
@@ -395,9 +395,9 @@ class Gap(NamedTuple):
     Attributes
     ----------
     line, face : ndarray, shape (N, M)
-        At the cells, and at the faces after them around the film.
+        Line and face at the cells, and at the faces after them around the film.
     side : ndarray, shape (N, M + 1)
-        At the faces of the cells along the bearing.
+        Side at the faces of the cells along the bearing.
     """
 
     line: Array
@@ -416,15 +416,15 @@ class Supply(NamedTuple):
     Attributes
     ----------
     pressure : ndarray, shape (openings,) [1/s]
-        In openings that are held, which are full.
+        Pressure in openings that are held, which are full.
     fed : ndarray of bool, shape (openings,)
         Whether an opening is not held but gets a flow.
     flow : ndarray, shape (openings,) [1/s]
         That flow, over clearance, radius and length.
     end_pressure : float [1/s]
-        At the ends of the bearing.
+        End pressure at the ends of the bearing.
     center_pressure : float [1/s]
-        Of a groove all round at mid-length.
+        Center pressure of a groove all round at mid-length.
     """
 
     pressure: Array
@@ -506,7 +506,7 @@ class ConservedFilm:
         Length / diameter.
     supply : Supply
     fluidity : Fluidity, optional
-        Of oil whose viscosity is not everywhere that of the units; cells keep it.
+        Fluidity of oil whose viscosity is not everywhere that of the units; cells keep it.
     """
 
     cells: ConservedCells
@@ -586,7 +586,7 @@ class ConservedFilm:
         rate : float [1/s]
             Half the speed, of either sign.
         storage : Storage, optional
-            Of a step; None for the steady film.
+            Storage of a step; None for the steady film.
         guess : ndarray, shape (N, M), optional
             Cells that may be full; by default those of the film on half the cells.
         by_newton : bool
@@ -723,7 +723,7 @@ class OilFlows(NamedTuple):
     out, drawn_in : float [1/s]
         Through both ends, of lines where it leaves and of those where it enters.
     inflow : ndarray, shape (openings,) [1/s]
-        From each opening, last that from a groove all round.
+        Inflow from each opening, last that from a groove all round.
     defect : float [1/s]
         Oil that the cells of the film make or lose, all taken as positive.
     """

@@ -219,7 +219,7 @@ class ScaledFilm:
     axial : ndarray, shape (M,) [m]
         Middles of the cells, from the middle of the film to its end, or from a groove at its end.
     cavitation_pressure : float [Pa]
-        In the cavity, from ambient pressure.
+        Cavitation pressure in the cavity, from ambient pressure.
     supplied : ndarray of bool, shape (openings,)
         Which openings are at the supply; the others are at ambient pressure.
     supply_pressure : float or None [Pa]
@@ -227,7 +227,7 @@ class ScaledFilm:
     supply_flow : float or None [m3/s]
         To each opening, in place of a pressure.
     stiffness : float or None [N/m]
-        Of springs beside the film; None where there are none.
+        Stiffness of springs beside the film; None where there are none.
     """
 
     film: ConservedFilm
@@ -375,9 +375,9 @@ class ConservedAtRest:
         position : array_like, shape (2, ...) [m]
             Or (4, ...) with the tilts [rad].
         velocity : array_like, shape (2, ...) [m/s]
-            Of a journal 0; of a damper across the position, or 0.
+            Velocity of a journal 0; of a damper across the position, or 0.
         speed : array_like, shape (...) [rad/s]
-            Of the shaft; without effect on a damper.
+            Speed of the shaft; without effect on a damper.
 
         Raises
         ------

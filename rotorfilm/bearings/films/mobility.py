@@ -36,11 +36,11 @@ class Mobility(StoredTable):
     scale : float [1]
         X below which the nodes are uniform, and above which their logarithms are.
     last_node : float [1]
-        In ln(1 + X/scale).
+        Last node in ln(1 + X/scale).
     per_thickness : float [1]
         X/H without a density.
     density : float [kg/m3]
-        Of the oil, where X is density |speed| radius thickness/viscosity; 0 for functions of H.
+        Density of the oil, where X is density |speed| radius thickness/viscosity; 0 for functions of H.
 
     Raises
     ------
@@ -144,7 +144,7 @@ def mobility_of(law: Law, *, largest: float = 10.0, scale: float = 0.1, cells: i
     scale : float [1]
         X below which the nodes are uniform, and above which their logarithms are.
     cells : int
-        Of the splines.
+        Cells of the splines.
 
     Raises
     ------

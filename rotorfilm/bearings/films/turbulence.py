@@ -180,7 +180,7 @@ class Turbulence:
         of the bearing and twice that, False for closures at any Reynolds number. No measurement stands
         behind the band: what it changes is a part of the error.
     density : float or None [kg/m3]
-        Of the oil; None for that of the bearing's oil at its temperature, and 870 without an oil.
+        Density of the oil; None for that of the bearing's oil at its temperature, and 870 without an oil.
 
     Raises
     ------

@@ -69,29 +69,28 @@ class JournalBearing(FilmReaction, WarmBearing):
     oil : Oil or None
         The lubricant by its viscosity over temperature, in place of `viscosity`.
     temperature : float or None [K]
-        Of the film, where the oil is given: force and derivatives are those of its viscosity there. None
-        leaves it to the heat balance, with `cooling`: then `equilibrium` finds it with the position, and a
-        force of its own the bearing has only by `at_temperature`.
+        Temperature of the film, where the oil is given: force and derivatives are those of its viscosity
+        there. With None and a `cooling`, the heat balance determines it: `equilibrium` finds it together with
+        the position. The bearing then has a force only at a given temperature (`at_temperature`).
     cooling : Cooling or None
-        What takes the heat away; needed for a heat balance only.
+        Supply oil and surroundings that remove the heat; needed for a heat balance only.
     film : FilmLaw
-        The film law. By default `MapFilm()`: Reynolds rupture, with grooves and pads at ambient pressure
-        too; and `ReynoldsFilm()` in a bearing of which there is no map, as with a supply pressure.
-        Exchangeable by `dataclasses.replace`, which chooses a default film anew for other dimensions, as does
-        a bearing that is given the default film of another one.
+        The film law. The default is `MapFilm()`: Reynolds rupture, also with grooves and pads at ambient
+        pressure. A bearing that has no map, for example with a supply pressure, gets `ReynoldsFilm()`.
+        `dataclasses.replace` changes it, and chooses a default film anew for other dimensions.
     pads : tuple of Pad
-        Where there is a bearing wall, angles in the bearing frame [rad]; empty for the full circumference.
+        Arcs of the bearing wall, with angles in the bearing frame [rad]; empty for the full circumference.
     grooves : tuple of Groove or FeedHole
         Axial grooves, over the whole length or in its middle, and feed holes; angles in the bearing frame
         [rad].
     supply_pressure : float [Pa]
         Gauge pressure in grooves and holes; ambient pressure is 0.
     circumferential_groove : float or None [m]
-        Width along the axis of a groove all round at mid-length, at the supply pressure: the film is that of
-        the two lands beside it. None for none.
+        Axial width of a circumferential groove at mid-length, which is at the supply pressure; the two lands
+        beside it carry the film. None for no groove.
     turbulence : Turbulence or None
-        Turbulence of the oil, on films on a grid and, in a plain bearing, on the map over the Reynolds number
-        that `MapFilm()` becomes; None for laminar oil.
+        Turbulence model; None for laminar oil. Films on a grid take it, and in a plain bearing `MapFilm()`
+        becomes a map over the Reynolds number.
 
     Raises
     ------
@@ -164,11 +163,11 @@ class JournalBearing(FilmReaction, WarmBearing):
 
     @property
     def film_length(self) -> float:
-        """Axial length that is film [m]: without that of a circumferential groove."""
+        """Axial length of the film [m], without the width of a circumferential groove."""
         return film_length(self.length, self.circumferential_groove)
 
     def centers_at(self, angle: Array) -> None:
-        """Return None: the wall's only center of curvature is that of the bearing."""
+        """Return None: the wall has one center of curvature, the bearing center."""
 
     @cached_property
     def geometry(self) -> FilmGeometry:
@@ -193,9 +192,9 @@ class JournalBearing(FilmReaction, WarmBearing):
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this bearing; None if its film has none.
 
-        Nor has a subclass. Its parameters are the dimensions and the viscosity; radius and length may change
-        as long as length / diameter stays within the table of the film, and are fixed with openings. The
-        length is that of the film, `film_length`.
+        A subclass has no kernel either. The parameters of the kernel are the dimensions and the viscosity.
+        Radius and length may change as long as length / diameter stays within the table of the film; they are
+        fixed with openings. The length is that of the film, `film_length`.
         """
         found = self._options.native(self.slenderness) if type(self) is JournalBearing else None
         if found is None:
@@ -286,7 +285,7 @@ class JournalBearing(FilmReaction, WarmBearing):
         return (film, losses) if found else None  # type: ignore[return-value]
 
     def balanced(self) -> BalancedBearing | None:
-        """Return the bearing in balance at every state; None if nothing compiles its film."""
+        """Return the bearing with its heat balance at every state; None if its film is not compiled."""
         return self.in_balance
 
     @cached_property
@@ -535,7 +534,7 @@ def bearing_losses(
     ----------
     bearing : JournalBearing
     position, velocity : ndarray, shape (2, ...) [m], [m/s]
-        Of the journal's center.
+        Position and velocity of the journal's center.
     speed : ndarray, shape (...) [rad/s]
         Angular speed about +z, of either sign.
     full_gap : bool, optional
@@ -612,18 +611,19 @@ def _number(values: Array) -> float | Array:
 class BalancedBearing(StaticReaction):
     """A journal bearing in the balance of its heat at every state: a static Reaction.
 
-    Its derivatives are the relaxed ones, of changes so slow that the temperature follows:
+    Its derivatives are those of changes so slow that the temperature follows:
 
         K_relaxed = K - F_T B_x/B_T,   C_relaxed = C - F_T B_v/B_T,
 
-    with the heat B that is left over, its derivatives by position, velocity and temperature, and F_T the
-    derivative of the force by temperature. That is right for equilibria and for slow changes of load and
-    speed. Vibration leaves the temperature where it is: never judge stability by these matrices.
+    with the residual B of the heat balance, its derivatives by position, velocity and temperature, and F_T
+    the derivative of the force by temperature. They are right for equilibria and for slow changes of load and
+    speed. During vibration the temperature does not change: do not use these matrices for stability.
 
     Parameters
     ----------
     bearing : JournalBearing
-        With oil and cooling; its film law has losses in the C library, as `MapFilm` has and `ShortFilm`.
+        Bearing with oil and cooling; its film law has losses in the C library, as `MapFilm` has and
+        `ShortFilm`.
     """
 
     bearing: WarmBearing
@@ -734,12 +734,13 @@ class HeatNumbers(NamedTuple):
     Attributes
     ----------
     thinning_rise : float [1]
-        E = thinning P/(C Q): what the oil thins where all heat leaves with the oil that leaks. The error of a
-        film at supply temperature.
+        E = thinning P/(C Q): relative loss of viscosity if all heat leaves with the side flow. It estimates
+        the error of a film at supply temperature.
     peclet : float [1]
-        Pe = speed clearance^2 C/k: heat that flows along the film over heat that crosses it.
+        Pe = speed clearance^2 C/k: heat convected along the film over heat conducted across it.
     nahme : float [1]
-        Na = thinning viscosity (speed radius)^2/k: what heat from shear alone thins across the film.
+        Na = thinning viscosity (speed radius)^2/k: relative change of viscosity across the film by shear
+        heating.
     """
 
     thinning_rise: float
@@ -749,13 +750,13 @@ class HeatNumbers(NamedTuple):
 
 @arguments
 def heat_numbers(bearing: WarmBearing, position: ArrayLike, speed: float) -> HeatNumbers:
-    """Return the numbers of the heat of a bearing with oil and cooling.
+    """Return the dimensionless heat numbers of a bearing with oil and cooling.
 
     Parameters
     ----------
     bearing : JournalBearing
     position : array_like, shape (2,) [m]
-        Of the journal, off the center: where the film at supply temperature carries the load.
+        Position of the journal, not the center: the equilibrium of the film at supply temperature.
     speed : float [rad/s]
 
     Raises
@@ -790,7 +791,7 @@ class StaticFilm(Readable):
     position : ndarray, shape (2,) [m]
     speed : float [rad/s]
     force : ndarray, shape (2,) [N]
-        On the journal.
+        Force on the journal.
     angle : ndarray, shape (N,) [rad]
         Lines, in the bearing frame from +x towards +y.
     """

@@ -17,14 +17,14 @@ def build_groove_map(bearing: JournalBearing, report: Report = silent) -> Groove
     Parameters
     ----------
     bearing : JournalBearing
-        With grooves or several pads, and a `MapFilm()` or a `GroovedMapFilm`.
+        Bearing with grooves or several pads, and a `MapFilm()` or a `GroovedMapFilm`.
     report : callable, optional
         Called with the fraction done, 0 to 1, and a text while a map is being made.
 
     Returns
     -------
     GrooveMapTable
-        `GroovedMapFilm(table=...)` needs neither the disk nor a compiler, in an FMU for one.
+        The map. A `GroovedMapFilm(table=...)` needs neither the disk nor a compiler, for example in an FMU.
 
     Raises
     ------

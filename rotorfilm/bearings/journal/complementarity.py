@@ -34,7 +34,7 @@ ITERATIONS = 60
 
 @dataclass(frozen=True)
 class ComplementarityArc:
-    """Reynolds' condition at both ends, in axial mode 1: the film forms and ruptures where it must.
+    """Reynolds' condition at both ends of the film (formation and rupture), in axial mode 1.
 
     Made for `SplittingFilm(order=(4, 8), constant=True)`, which is then within 0.1 % (median) and 0.35 %
     (90 %) of the two-dimensional complementarity solution at L/D 0.5 and 1; docs/journal.md has the table.

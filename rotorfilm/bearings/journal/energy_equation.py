@@ -67,7 +67,7 @@ class AdiabaticWalls:
     """Bush and journal that take no heat: all of it leaves with the oil."""
 
     def response(self, radius: float, start: Array, extent: Array) -> None:
-        """Return None: no heat makes the walls warmer."""
+        """Return None: the walls do not warm."""
 
 
 @quantities
@@ -78,7 +78,7 @@ class HeldWalls:
     Parameters
     ----------
     bush_temperature, journal_temperature : float [K]
-        At the bore, all round, and of the journal.
+        Bush temperature and journal temperature at the bore, all round, and of the journal.
     """
 
     bush_temperature: float
@@ -88,7 +88,7 @@ class HeldWalls:
         require_each(self, require_positive, "bush_temperature", "journal_temperature")
 
     def response(self, radius: float, start: Array, extent: Array) -> WallResponse:
-        """Return that heat changes nothing; see `BushRing.response`."""
+        """Return a response of zero: the temperatures are given; see `BushRing.response`."""
         spread = np.zeros((len(start), len(start)))
         return WallResponse(spread, 1.0, 0.0, self.bush_temperature, 1.0, 0.0, self.journal_temperature)
 
@@ -98,8 +98,8 @@ class HeldWalls:
 class BushRing:
     """A bush that conducts heat around and outwards, and a journal of one temperature.
 
-    The bush is a ring of the bearing's length in which heat flows around and along the radius. Of a
-    temperature cos(n theta) at its bore it takes the flux D_n cos(n theta), exactly,
+    The bush is a ring of the bearing's length in which heat flows around and along the radius. For a
+    temperature cos(n theta) at its bore the heat flux into it is D_n cos(n theta), exactly,
 
         1/D_0 = r ln(r_o/r)/k + r/(r_o h),   D_n = (k n/r) (1 - s q)/(1 + s q),
         s = (n - Bi)/(n + Bi),   Bi = h r_o/k,   q = (r/r_o)^(2n).
@@ -113,10 +113,10 @@ class BushRing:
     transfer : float [W/(m2 K)]
         h from the outside of the bush to its surroundings; 0 insulates it.
     ambient_temperature : float [K]
-        Of the surroundings.
+        Ambient temperature of the surroundings.
     shaft_conductance : float [W/K]
-        Heat that the shaft carries off from the bearing, per kelvin above the surroundings; 0 if nothing is
-        known, so that the journal is as warm as makes its net heat zero.
+        Heat that the shaft conducts away from the bearing, per kelvin above the surroundings. With 0 (nothing
+        is known) the journal has the temperature at which its net heat is zero.
 
     Raises
     ------
@@ -147,12 +147,12 @@ class BushRing:
         return np.asarray(self.conductivity * waves / radius * (1.0 - sq) / (1.0 + sq))
 
     def response(self, radius: float, start: Array, extent: Array) -> WallResponse:
-        """Return how warm the bush gets, by means over the cells.
+        """Return the temperature response of the bush, as means over the cells.
 
         Parameters
         ----------
         radius : float [m]
-            Of the bearing.
+            Radius of the bearing.
         start, extent : ndarray, shape (N,) [rad]
             Cells around the film.
         """
@@ -193,11 +193,11 @@ class Heating(NamedTuple):
     flow : FilmFlow
     speed : float [rad/s]
     viscosity : ndarray, shape (N, M, ...) [1]
-        Over that of the bearing; a last axis is that of layers.
+        Viscosity over that of the bearing; a last axis is that of layers.
     thinning : ndarray, shape (N, M, ...) [1/K]
-        By which heat falls as the oil warms; 0 to hold it.
+        Thinning by which heat falls as the oil warms; 0 to hold it.
     temperature : ndarray, shape (N, M, ...) [K]
-        At which the oil has this viscosity, above that of the supply.
+        Temperature at which the oil has this viscosity, above that of the supply.
     capacity : float [J/K]
         Volumetric heat of fresh oil x clearance x radius x length: what the flows carry.
     friction : float [W s2]
@@ -257,12 +257,12 @@ class HeatSolution(NamedTuple):
     Attributes
     ----------
     oil : ndarray, shape (N, M, ...) [K]
-        In openings that of the mixed oil.
+        Oil in openings that of the mixed oil.
     openings : ndarray, shape (openings,) [K]
-        Of that oil.
+        Openings of that oil.
     bush : ndarray, shape (N,), or None [K]
     journal : float or None [K]
-        Of the walls; None of those that take no heat.
+        Journal of the walls; None of those that take no heat.
     heat : HeatAccount
     """
 

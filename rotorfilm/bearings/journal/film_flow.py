@@ -107,7 +107,7 @@ def film_flow(
     film : FrozenFilm
     found : FilmSolution
     eccentricity : ndarray, shape (2,) or (2, N) [1]
-        Of all lines, or of each.
+        Eccentricity of all lines, or of each.
     speed : float [rad/s]
     full_gap : bool
         Whether oil fills the gap in the ruptured zone too.
@@ -386,10 +386,10 @@ def film_cells(
         Length / diameter.
     eccentricity : ndarray, shape (2,) [1]
     centers : ndarray, shape (2, spans), optional [1]
-        Of curvature of the wall on each span, over the clearance; by default all are those of the bearing.
-        On an arc about a center of its own lines crowd at its own minimum film.
+        Centers of curvature of the wall on each span, over the clearance; by default all are those of the
+        bearing. On an arc about a center of its own lines crowd at its own minimum film.
     recesses : sequence of SunkArc
-        Whose edges are edges of spans, and whose ends are nodes.
+        Recesses whose edges are edges of spans, and whose ends are nodes.
     """
     e = np.repeat(eccentricity[:, None], len(spans.start), axis=1)
     if centers is not None:
@@ -503,7 +503,7 @@ class FrozenFilm(StaticReaction):
     empty : ndarray of bool, shape (N, M)
         Nodes that no film may start at, since no oil gets there.
     bearing : JournalBearing or LobedBearing
-        Of the viscosity that the fluidity is relative to.
+        Bearing of the viscosity that the fluidity is relative to.
     frozen_at : (float, float) or None [m]
         Position of the journal at which it was; None of fresh oil.
     """

@@ -112,20 +112,20 @@ def film_state(
 ) -> FilmState:
     """Return force, flow and friction of a bearing at one state, and the pressure where the film has a field.
 
-    A `ReynoldsFilm` has a field, and so has a `SplittingFilm`, which has no losses. The pressure of the
-    latter is that of Sussi & Fridman (1978), 12 viscosity (R/c)^2 sum_j 4/(pi j) u_j sin(j pi z/b), with its
-    tension.
+    `ReynoldsFilm` and `SplittingFilm` have a pressure field; the latter has no losses. Its pressure is that
+    of Sussi & Fridman (1978), 12 viscosity (R/c)^2 sum_j 4/(pi j) u_j sin(j pi z/b), including negative
+    values.
 
     Parameters
     ----------
     bearing : JournalBearing
     position, velocity : array_like, shape (2,) [m], [m/s]
-        Of the journal's center.
+        Position and velocity of the journal's center.
     speed : float [rad/s]
         Angular speed about +z, of either sign.
     full_gap : bool, optional
-        Whether oil fills the ruptured zone, as Raimondi & Boyd (1958) have it; by default streamers run
-        there. See `bearing_losses`.
+        Whether oil fills the ruptured zone, as Raimondi & Boyd (1958) assume; by default it flows in
+        streamers there. See `bearing_losses`.
 
     Raises
     ------
@@ -278,7 +278,7 @@ def splitting_pressure(
     slenderness : float [1]
         Length / diameter.
     axial : ndarray, shape (M,) [1]
-        From the middle of the bearing, 0, to its end, 1.
+        Axial from the middle of the bearing, 0, to its end, 1.
 
     Returns
     -------

@@ -66,7 +66,7 @@ class GrooveMapTable(BoundedTable):
     slenderness : float [1]
         Length / diameter of the bearing.
     grooves : tuple of Groove
-        Its openings, seen from the axis of `aligned_openings`.
+        Openings of the bearing, with angles from the axis of `aligned_openings`.
     reach : float [1]
         X of the last node; beyond it the kernel continues J to the wall.
     crowding : float [1]
@@ -82,8 +82,8 @@ class GrooveMapTable(BoundedTable):
     bounds : ndarray, shape (bands, 5)
         Largest errors with the journal in equilibrium, found when the map was made (`groove_bounds`). A row
         has the eccentricity ratio up to which it holds, and the relative errors of the force, of K and C
-        (relative to their largest entry), of the shear, and of the flow of fresh oil. None of them where
-        nothing is known.
+        (relative to their largest entry), of the shear, and of the flow of fresh oil. It is empty if the
+        errors are not known.
     mobility : float
         Checksum of the mobility of its oil, 0 of a laminar film.
 
@@ -329,9 +329,9 @@ class Resolution(NamedTuple):
         Nodes over the eccentricity ratio without the center, over its direction, and over that of the
         source.
     largest_eccentricity_ratio : float [1]
-        Of the last node.
+        Largest eccentricity ratio of the last node.
     mobility : Mobility or None
-        Of the oil, over the thickness.
+        Mobility of the oil, over the thickness.
     """
 
     cells: tuple[int, int]
@@ -427,7 +427,7 @@ def whole_losses(
     Parameters
     ----------
     nodes : ndarray
-        Of `node_losses_between`, of one direction of e after the other, for each eccentricity ratio.
+        Nodes of `node_losses_between`, of one direction of e after the other, for each eccentricity ratio.
     solved : ndarray of int
         Directions of e.
     """
@@ -551,7 +551,7 @@ def bound_states(
     grooves : tuple of Groove
         The openings, from the axis of the map.
     largest_eccentricity_ratio : float [1]
-        Of the map.
+        Largest eccentricity ratio of the map.
 
     Returns
     -------

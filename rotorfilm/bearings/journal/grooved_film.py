@@ -41,16 +41,16 @@ class GroovedMapFilm(KernelFilm):
     The openings are at ambient pressure. As in `MapFilm` the force is F = dJ/dw of a tabulated potential
     J(e, w), here over two angles (`native/films/map_kernel.h`): the damping matrix is symmetric, and the
     derivatives are exact. `MapFilm()` becomes this film in a bearing with openings, and this one `MapFilm()`
-    in a plain bearing: by name it is needed for its parameters only.
+    in a plain bearing: you need to name it only to change its parameters.
 
-    A map belongs to one L/D, 0.05 to 20, and one set of openings, wherever they are turned to. It is made
+    A map belongs to one L/D (0.05 to 20) and to one set of openings, at any orientation. It is made
     from some 10^4 solutions of the two-dimensional film on first use, which takes some seconds on all cores,
     and then kept in the folder that the environment variable ROTORFILM_CACHE names, or the platform's cache.
-    `build_groove_map` makes it beforehand and says how far it is.
+    `build_groove_map` makes it beforehand and reports the progress.
 
-    Beyond the largest eccentricity ratio J goes on as the film at the wall (`native/films/wall.h`), as far
-    as the openings leave it, with a ValidityWarning: within 5 % where no opening is near, by factors at an
-    edge.
+    Beyond the largest eccentricity ratio J continues as the asymptotic film at the wall
+    (`native/films/wall.h`), with a ValidityWarning. Its error is within 5 % where no opening is near; at the
+    edge of an opening it may be wrong by a factor.
 
     Parameters
     ----------
@@ -61,13 +61,13 @@ class GroovedMapFilm(KernelFilm):
         Nodes of the map over the eccentricity ratio (at least 6), and over the directions of the
         eccentricity and of the source (even, at least 12).
     largest_eccentricity_ratio : float [1]
-        Of the last node.
+        Largest eccentricity ratio of the last node.
     mobility : Mobility or None
         How easily the oil flows over the thickness of the film (`mobility_of`); None for laminar flow. The
         factor of its Couette flow is 1, and it does not change with the speed. Beyond the largest
         eccentricity ratio the error is then unknown.
     table : GrooveMapTable, optional
-        The map, where it is there already: nothing is then built nor looked for.
+        An existing map, which is then used without a search on disk.
     geometry : FilmGeometry
         Set by `fitted`, from the geometry of the bearing.
 
@@ -129,8 +129,8 @@ class GroovedMapFilm(KernelFilm):
     def losses(self, e: Array, w: Array, slenderness: float, rate: Array | None = None) -> FilmLosses:
         """Return shear and flow from the maps, with slopes; see `FilmOptions`.
 
-        The film begins, and the streamers run, as those of a journal at rest with the source w; what leaves
-        openings and arrives there is that of a journal at rest, for oil that runs at the rate.
+        The start of the film, the streamers and the flows of the openings are those of a journal at rest with
+        the source w.
         """
         flat = e.reshape(2, -1), w.reshape(2, -1)
         require_film(flat[0])
@@ -182,7 +182,7 @@ class GroovedMapFilm(KernelFilm):
         return cached_table(GrooveMapTable, path, lambda: build_groove_table(*key, telling))
 
     def making_time(self, slenderness: float) -> float:
-        """Return about how long making the map takes on this machine [s]; 0 where it is there, or on disk."""
+        """Return the estimated time to make the map on this machine [s]; 0 if it exists already."""
         if self.table is not None:
             return 0.0
         openings, rounded, resolution = self._key(slenderness)

@@ -131,7 +131,7 @@ class HeatRounds:
         Parameters
         ----------
         position : array_like, shape (2,) [m]
-            Of the journal's center.
+            Position of the journal's center.
         speed : float [rad/s]
             Angular speed about +z, of either sign, not 0.
 
@@ -179,7 +179,7 @@ class HeatRounds:
         position, speed, closing
             As in `warmed`.
         temperature : array_like [K]
-            Such as that of a cheaper film; it broadcasts to the cells.
+            Temperature such as that of a cheaper film; it broadcasts to the cells.
         """
         T = np.broadcast_to(temperature, self._fresh().shape).astype(float)
         return self._round(*self._checked(position, speed), T, None, closing)
@@ -313,18 +313,19 @@ class HeatedFilm(HeatRounds):
 
     The film is that of Reynolds' equation with rupture, on finite volumes, its viscosity that of the oil at
     the temperature of each cell; the temperature is that of the oil which the same film moves. Both are
-    solved in turn. The fall of heat with temperature is a part of the energy equation, so that few rounds
-    do. Oil starts a film only where there is oil: at an opening, where streamers fill the gap again, and in a
-    bearing without openings where Reynolds' equation says.
+    solved in turn. The energy equation includes the fall of the heat with temperature, so that few iterations
+    are needed. A film starts only where there is oil: at an opening, or where streamers fill the gap again.
+    In a bearing without openings it starts where Reynolds' equation says.
 
     Parameters
     ----------
     bearing : JournalBearing, LobedBearing, PressureDamBearing or TiltingPadBearing
-        With oil and cooling; of these it takes supply temperature and carry-over. Its own film law and
-        housing have no part. Between pads are openings as between the pads of a journal bearing. Tilting
-        pads stand so that the film of each has no moment about its pivot.
+        Bearing with oil and cooling; of these it takes supply temperature and carry-over. Its film law and
+        its housing conductance are not used. The gaps between pads act as openings. Tilting pads stand so
+        that the film of each has no moment about its pivot.
     walls : Walls
-        `BushRing(...)`, `HeldWalls(...)`, or by default `AdiabaticWalls()`. Tilting pads are no ring.
+        `BushRing(...)`, `HeldWalls(...)`, or by default `AdiabaticWalls()`. Tilting pads do not take a
+        `BushRing`.
     cells : tuple of int
         Cells around the film and along half the length, as of `ReynoldsFilm`.
     profile : FilmProfile
@@ -364,7 +365,7 @@ class HeatedFilm(HeatRounds):
         require_cells(self.cells)
 
     def cold(self) -> Any:
-        """Return the film of fresh oil, whose lines are where they are for a centered journal."""
+        """Return the film of fresh oil, with the grid lines of a centered journal."""
         return replace(self._frozen(np.zeros(2), self._fresh()), frozen_at=None).reaction
 
     def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> Any:
@@ -453,24 +454,25 @@ class HeatedState(StaticFilm, Drawable):
     oil_temperature : ndarray, shape (N, M) or (N, M, layers) [K]
         The mean across the film, or that of its layers from the bush to the journal.
     bush_temperature : ndarray, shape (N,), or None [K]
-        At the bore; None for walls that take no heat.
+        Bush temperature at the bore; None for walls that take no heat.
     journal_temperature : float or None [K]
-        Of the whole journal.
+        Journal temperature of the whole journal.
     maximum_temperature : float [K]
-        Of the oil in the film.
+        Maximum temperature of the oil in the film.
     power_loss : float [W]
         Power of the shaft that becomes heat.
     friction_torque : float [N m]
-        About +z, that keeps the journal turning.
+        Torque about +z that keeps the journal turning.
     side_flow : float [m3/s]
         Oil that leaves through both ends of the film.
     heat : HeatAccount
     film : FrozenFilm or FrozenJFOFilm
         The film at frozen temperature: a Reaction with exact derivatives.
     film_temperature : ndarray, shape of oil_temperature [K]
-        At which the film has its viscosity; that of the oil when the rounds have come to rest.
+        Film temperature at which the film has its viscosity; equal to that of the oil when the iteration has
+        converged.
     rounds : int
-        Solutions of film and heat in turn until here.
+        Number of alternating solutions of film and heat.
     """
 
     axial: Array
@@ -494,7 +496,7 @@ class HeatedState(StaticFilm, Drawable):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class HeatedJFOState(HeatedState):
-    """A film that conserves its oil with its temperature, for a journal at rest; `filled` is its oil content.
+    """A mass-conserving film with its temperature, for a journal at rest; `filled` is its oil content.
 
     Attributes
     ----------
@@ -502,7 +504,7 @@ class HeatedJFOState(HeatedState):
         Oil that leaves each opening for the film, and that arrives there, in the order of
         `FilmGeometry.openings`; a circumferential groove is the last.
     opening_temperature : ndarray, shape (openings,) [K]
-        Of what leaves it: the oil that arrives, as much as goes on, mixed with fresh oil.
+        Temperature of the oil that leaves the opening: a mixture of arriving oil and fresh oil.
     drawn_in : float [m3/s]
         Oil that enters through both ends, of the temperature of the supply.
     """
@@ -519,15 +521,15 @@ class HeatedJFOFilm(HeatRounds):
     """The film of a `JFOFilm` with oil and cooling, its temperature a field.
 
     As `HeatedFilm`, but the heat goes with the oil that the film conserves: through film and cavity, out of
-    the ends, and back to grooves, pockets and holes. There what arrives, less the share that the supply
-    replaces, mixes with the fresh oil that the balance of the opening asks for. An opening with a given flow
-    replaces none: all that arrives goes on with the oil of the pump.
+    the ends, and back to grooves, pockets and holes. There the arriving oil, less the share that the supply
+    replaces, mixes with the fresh oil that closes the flow balance of the opening. An opening with a given
+    flow replaces none: all arriving oil continues together with the oil of the pump.
 
     Parameters
     ----------
     film : JFOFilm
-        Of a bearing with oil and cooling; of these it takes supply temperature and carry-over. What fills
-        the cavity is known, so that `full_gap` has no part.
+        Film of a bearing with oil and cooling; of these it takes supply temperature and carry-over. The film
+        determines the oil in the cavity, so `full_gap` is not used.
     walls : Walls
         `BushRing(...)`, `HeldWalls(...)`, or by default `AdiabaticWalls()`.
     profile : FilmProfile
@@ -670,7 +672,7 @@ class FrozenJFOFilm(JFOFilm):
     Parameters
     ----------
     fluidity : Fluidity
-        Of the oil in each cell, over that of the bearing.
+        Fluidity of the oil in each cell, over that of the bearing.
     """
 
     fluidity: Fluidity

@@ -88,33 +88,33 @@ AT_REST = np.eye(2)
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class JFOFilm(MassConserving):
-    """The film of a journal bearing that conserves its oil (Jakobsson, Floberg and Olsson).
+    """The film of a journal bearing with mass-conserving cavitation (Jakobsson, Floberg and Olsson).
 
-    Where the film ruptures the oil goes on, in a gap that it fills in part, until there is enough to start
-    the film again. So the film starts where oil comes from, and not where Reynolds' rupture has it: what
-    grooves, holes and pumps give decides force, side flow and friction. The film remembers: a force follows
-    from position and speed for a journal at rest, or in slow motion, only; in a vibration stiffness and
-    damping depend on its frequency. `equilibrium` and `coefficients` take it as they take any bearing.
+    Behind the rupture the oil flows on in a partly filled gap, until there is enough oil to form a film
+    again. So the film starts where oil is supplied, and not where Reynolds' rupture starts it: the supply by
+    grooves, holes and pumps decides force, side flow and friction. The film depends on its past. Position and
+    speed alone determine the force only for a journal at rest or in slow motion; in vibration, stiffness and
+    damping depend on the frequency. `equilibrium` and `coefficients` take it like any bearing.
 
-    Lines stay in the bearing, uniform between the edges of openings. 144 x 10 cells are within 0.7 % of the
-    force to eccentricity ratio 0.9, in about one ms.
+    Grid lines are fixed in the bearing and uniform between the edges of openings. On 144 x 10 cells the force
+    has an error of 0.7 % up to the eccentricity ratio 0.9, in about 1 ms.
 
     Parameters
     ----------
     bearing : JournalBearing
-        With what feeds it: grooves of a length, feed holes, a circumferential groove, or grooves over the
+        The bearing with its supply: short grooves, feed holes, a circumferential groove, or grooves over the
         whole length at ambient pressure. Gaps between pads are full of oil at ambient pressure. Its own film
-        law has no part. On an oil with a cooling `equilibrium` finds the temperature of the film too.
+        law is not used. With an oil and a cooling, `equilibrium` finds the film temperature too.
     cells : tuple of int
-        Lines around the film and cells along half the length, about; even numbers.
+        Approximate numbers of lines around the film and of cells along half the length; even.
     supply_flow : float or None [m3/s]
-        Oil given to each opening, which then finds its own pressure, or starves; None for openings at the
+        Oil flow into each opening, whose pressure then follows, or which starves; None for openings at the
         supply pressure of the bearing.
     cavitation_pressure : float [Pa]
         Gauge pressure in the cavity, not above 0.
     submerged : bool
-        Whether there is oil around the ends. It is what they draw in where the film is below ambient
-        pressure; in air that would be air, of which there is a warning.
+        Whether there is oil around the ends, which they draw in where the film is below ambient pressure.
+        Otherwise they would draw in air, and a warning says so.
 
     Raises
     ------
@@ -196,7 +196,7 @@ class JFOFilm(MassConserving):
         Parameters
         ----------
         position : array_like, shape (2,) [m]
-            Of the journal's center.
+            Position of the journal's center.
         speed : float [rad/s]
             Angular speed about +z, of either sign.
 
@@ -221,7 +221,7 @@ class JFOFilm(MassConserving):
         Parameters
         ----------
         position, speed : array_like, shape (2,) [m], and float [rad/s]
-            As in `solve`.
+            Position and speed as in `solve`.
         s : complex [1/s]
             Growth rate + i frequency.
         """
@@ -235,12 +235,12 @@ class JFOFilm(MassConserving):
     def slow_coefficients(self, position: ArrayLike, speed: float) -> ReducedCoefficients:
         """Return K and C in motions slow against the time that oil takes to cross the cavity: K(0), dK/ds(0).
 
-        Neither is symmetric, and C may be negative in a diagonal.
+        Neither matrix is symmetric, and C may have a negative diagonal entry.
 
         Parameters
         ----------
         position, speed : array_like, shape (2,) [m], and float [rad/s]
-            As in `solve`.
+            Position and speed as in `solve`.
         """
         q, state = self._steady(position, speed)
         K, C, _ = self.scaled.about(state).slow()
@@ -258,20 +258,20 @@ class JFOFilm(MassConserving):
         return replace(self, bearing=self.bearing.at_temperature(temperature))
 
     def at_rest(self) -> JFOFilm:
-        """Return this film: it has a force for a journal at rest only."""
+        """Return this film: its force is that of a journal at rest."""
         return self
 
     def losses(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> BearingLosses:
         """Return power loss, torques and oil flow of a journal at rest, openings in the order of `inflow`.
 
-        The power is that of the shaft and what the pressure of the openings puts in; the torque on the bush
+        The power loss is the power of the shaft plus that of the supply pressure. The torque on the bush
         differs from that on the journal by the moment of the force.
 
         Parameters
         ----------
         position : array_like, shape (2,) [m]
         velocity : array_like, shape (2,) [m/s]
-            Not but 0.
+            Must be 0.
         speed : float [rad/s]
 
         Raises
@@ -294,7 +294,7 @@ class JFOFilm(MassConserving):
         )
 
     def supplied(self, state: ConservedState) -> tuple[tuple[Array, Array], float]:
-        """Return what leaves the openings and arrives there [m3/s], and what their pressure puts in [W].
+        """Return the flows out of and into the openings [m3/s], and the power of the supply pressure [W].
 
         The flows are in the order of `opening_flows`.
         """
@@ -305,7 +305,7 @@ class JFOFilm(MassConserving):
 
     @property
     def is_warming(self) -> bool:
-        """Whether the temperature of the film is left to the heat balance."""
+        """Whether the heat balance determines the temperature of the film."""
         return self.bearing.is_warming
 
     @property
@@ -314,21 +314,21 @@ class JFOFilm(MassConserving):
         return self.bearing.cooled
 
     def coldest(self) -> float:
-        """Return the temperature below which the film never gets [K]; raises InputError without cooling."""
+        """Return the lowest possible film temperature [K]; raises InputError without cooling."""
         return self.bearing.coldest()
 
     def balanced(self) -> None:
-        """Return None: nothing has the temperature of the balance at every state."""
+        """Return None: no model has the balance temperature at every state."""
         return
 
     def in_time(self, start_temperature: float | None = None) -> None:
-        """Raise InputError: over time it has no temperature."""
+        """Raise InputError: its temperature over time is not modeled."""
         raise InputError("film must be a law with a heat balance over time, as MapFilm, got JFOFilm")
 
     def balanced_temperature(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> float:
         """Return the temperature at which the heat of the film balances at one state [K].
 
-        The oil that leaves, enters and comes back to the openings is what the film conserves.
+        The balance uses the flows of the film: the oil that leaves, enters, and returns to the openings.
 
         Parameters and errors are those of `losses`.
         """
@@ -354,14 +354,14 @@ class JFOFilm(MassConserving):
 class MomentCarryingJFOFilm(TiltedJournal, ConservedAtRest):
     """The film of a `JFOFilm` under a journal that tilts: a reaction to x, y, tilt_x and tilt_y.
 
-    Gap, tilts and moments are those of `MomentCarryingJournal`. The film goes over the whole length, with
-    about twice the cells. As that of a `JFOFilm` its force is that of a journal at rest, and stiffness and
-    damping depend on the frequency.
+    Gap, tilts and moments are those of `MomentCarryingJournal`. The film covers the whole length, with about
+    twice the cells. As with `JFOFilm`, its force is that of a journal at rest, and stiffness and damping
+    depend on the frequency.
 
     Parameters
     ----------
     film : JFOFilm
-        Of a bearing without a circumferential groove, with its temperature stated.
+        Film of a bearing without a circumferential groove, at a given temperature.
 
     Raises
     ------
@@ -409,7 +409,7 @@ class MomentCarryingJFOFilm(TiltedJournal, ConservedAtRest):
         return 1.0 - max(float(np.hypot(*end)) for end in ends)
 
     def at_place(self, position: Array, velocity: Array, speed: float) -> tuple[ConservedState, Array, float]:
-        """Return the film of a journal at rest, and what makes forces and moments of its own."""
+        """Return the film of a journal at rest, and the scales of its forces and moments."""
         require_at_rest(velocity)
         self.require_film(position)
         film, scales = self.scaled.film, self._scales
@@ -421,7 +421,7 @@ class MomentCarryingJFOFilm(TiltedJournal, ConservedAtRest):
         return self.scaled.about(state, axes)
 
     def at_rest(self) -> MomentCarryingJFOFilm:
-        """Return this film: it has a force for a journal at rest only."""
+        """Return this film: its force is that of a journal at rest."""
         return self
 
 
@@ -436,7 +436,7 @@ def require_at_rest(velocity: Array) -> None:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class JFOState(StaticFilm, Drawable):
-    """A film that conserves its oil, for a journal at rest; N lines with M cells on each.
+    """The state of a mass-conserving film for a journal at rest; N lines with M cells on each.
 
     Attributes
     ----------
@@ -451,11 +451,11 @@ class JFOState(StaticFilm, Drawable):
     drawn_in : float [m3/s]
         Oil that enters through both ends, from around the bearing.
     inflow : ndarray, shape (openings,) [m3/s]
-        Oil that leaves each opening, in the order of `FilmGeometry.openings`, less what arrives there; that
-        of a circumferential groove is the last.
+        Net oil flow out of each opening, in the order of `FilmGeometry.openings`; a circumferential groove is
+        the last.
     friction_torque : float [N m]
-        About +z, that keeps the journal turning: shear of the film and, in strips across the gap, of the oil
-        in the cavity, without the openings.
+        About +z, that keeps the journal turning: shear of the film and of the oil in the cavity, which forms
+        strips across the gap; without the openings.
     power_loss : float [W]
         Power of the shaft that becomes heat: torque times speed.
     mass_defect : float [1]
@@ -463,7 +463,7 @@ class JFOState(StaticFilm, Drawable):
     solutions : int
         Linear systems that were solved on these cells.
     newton_steps : int
-        Those of the fallback, which is used where the search by sets goes round in a circle.
+        Steps of Newton's method, the fallback where the active-set search does not converge.
     """
 
     axial: Array
@@ -581,14 +581,14 @@ RUPTURE_CELLS = (36, 4), (72, 8)
 
 @dataclass(frozen=True, kw_only=True)
 class RuptureError(Readable):
-    """By how much Reynolds rupture is off, as it makes the oil with which its film starts.
+    """The error of Reynolds rupture, which does not conserve oil, against a mass-conserving film.
 
     Attributes
     ----------
     force_error : float [1]
-        Distance of both forces over that of the film that conserves its oil.
+        Distance of both forces, relative to the force of the mass-conserving film.
     side_flow_error, torque_error : float [1]
-        Of Reynolds rupture over that of the film that conserves its oil, less 1.
+        Side flow and torque with Reynolds rupture, relative to those of the mass-conserving film, minus 1.
     """
 
     force_error: float
@@ -598,17 +598,17 @@ class RuptureError(Readable):
 
 @arguments
 def rupture_error(bearing: JournalBearing, position: ArrayLike, speed: float) -> RuptureError:
-    """Return how far Reynolds rupture is off in a bearing with its supply, for a journal at rest.
+    """Return the error of Reynolds rupture in a bearing with its supply, for a journal at rest.
 
-    Both films are solved on 36 x 4 and on 72 x 8 cells, and extrapolated. It is a measure, not a bound:
-    mostly within a fourth of what fine grids say, nearly always within a factor 2.
+    Both films are solved on 36 x 4 and on 72 x 8 cells, and extrapolated. It is an estimate, not a bound:
+    mostly within 25 % of the value on fine grids, nearly always within a factor of 2.
 
     Parameters
     ----------
     bearing : JournalBearing
-        With what feeds it; its own film law has no part.
+        The bearing with its supply; its own film law is not used.
     position : array_like, shape (2,) [m]
-        Of the journal's center.
+        Position of the journal's center.
     speed : float [rad/s]
         Angular speed about +z.
 

@@ -37,18 +37,18 @@ class MapFilm(KernelFilm):
     (`native/films/map_kernel.h`).
 
     The packaged table has a force error of 2e-4 (99 % of random states up to eccentricity ratio 0.999), and
-    of 2e-3 for static journals at 0.999. Beyond the last node, 0.999, J goes on as the film at the wall
-    (`native/films/wall.h`), with a ValidityWarning that states the error: 2 % at most, 0.2 % for static
-    journals to 0.99999. The table of a film that has another limit goes on as a power of X, with an unknown
+    of 2e-3 for static journals at 0.999. Beyond the last node, 0.999, J continues as the asymptotic film at
+    the wall (`native/films/wall.h`), with a ValidityWarning that states the error: 2 % at most, and 0.2 % for
+    static journals up to 0.99999. A table with another limit continues as a power of X, with an unknown
     error.
 
     Parameters
     ----------
     table : MapTable, optional
-        The potential of a plain bearing; by default the table of the package. It holds length/diameter 0.1
-        to 4; a bearing outside gets a table of its own at its first force, in about half a minute, kept
-        in memory (`bearing_table`, which is also the way to save one). A bearing with openings gets a
-        `GroovedMapFilm`, which takes up to a minute at the first force and is kept on disk.
+        The potential of a plain bearing; by default the table of the package. It covers length/diameter from
+        0.1 to 4. A bearing outside this range makes its own table at its first force, in about half a minute,
+        and keeps it in memory; `bearing_table` makes a table that can be saved. A bearing with openings gets
+        a `GroovedMapFilm`, which takes up to a minute at the first force and is kept on disk.
 
     Raises
     ------
@@ -84,8 +84,8 @@ class MapFilm(KernelFilm):
     def losses(self, e: Array, w: Array, slenderness: float, rate: Array | None = None) -> FilmLosses:
         """Return shear and flow from the tables of the package, with slopes; see `FilmOptions`.
 
-        A bearing of another length/diameter has those of the two-dimensional film that its own map is made
-        of, without slopes.
+        A bearing with a length/diameter outside the table uses the two-dimensional film of its own map,
+        without derivatives.
         """
         require_film(e.reshape(2, -1))
         kernel = packaged_kernel(float(slenderness))
@@ -243,7 +243,7 @@ class LossTable(MapTable):
     reach : float [1]
         X of the last node; beyond it all are powers of X.
     log_center : ndarray, shape (s, 3)
-        Of ln(g Sigma_f), ln(g (Sigma_f + Sigma_r)) and ln(flow/|w|).
+        Log center of ln(g Sigma_f), ln(g (Sigma_f + Sigma_r)) and ln(flow/|w|).
     coefficients : ndarray, shape (s, 3, cells_x + 5, cells_s + 5)
         Spline coefficients of M over ln(L/D), of the three, over X and over s.
 

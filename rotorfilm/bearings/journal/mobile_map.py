@@ -66,7 +66,7 @@ class MobileMapTable(BoundedTable):
     reach : float [1]
         X of the last node; beyond it J goes on as a power of X.
     largest_reynolds_number : float [1]
-        Of the last node; beyond it the force is that of this node.
+        Largest reynolds number of the last node; beyond it the force is that of this node.
     log_center : ndarray, shape (cells_y + 5,)
         Spline coefficients of L0 over y.
     coefficients : ndarray, shape (cells_x + 5, cells_y + 5, cells_cos + 5)
@@ -121,13 +121,13 @@ class MobileMapFilm(KernelFilm):
     Parameters
     ----------
     mobility : Mobility
-        With a density, its factor of the Couette flow 1.
+        Mobility with a density, its factor of the Couette flow 1.
     cells : (int, int)
         Cells of the film on the grid, as of `ExtrapolatedFilm`.
     nodes : (int, int, int)
         Cells of the map over eccentricity, direction of the source and Reynolds number; at least 6.
     largest_eccentricity_ratio, largest_reynolds_number : float [1]
-        Of the last nodes.
+        Largest eccentricity ratio and largest reynolds number of the last nodes.
     table : MobileMapTable, optional
         The map, where it is there already.
     reynolds_scale : float [m3/kg s]

@@ -50,26 +50,27 @@ class ReynoldsFilm(KernelFilm):
     eccentricity. The damping matrix is symmetric and positive semidefinite.
 
     The lines of the grid are dense at the minimum film and follow it. So the error of the force changes if
-    the journal moves, or if the bearing is turned by other than a multiple of the spacing. Where the journal
-    leaves a wall that it nearly touches, differences over less than a spacing are no derivative. 96 x 8 cells
-    are within 1 % of the force for L/D from 0.1 to 4 at eccentricity ratios to 0.9, and of about twice that
-    to 0.99, in some 0.5 ms.
+    the journal moves, or if the bearing is turned by other than a multiple of the spacing. Near the wall,
+    finite differences over less than a grid spacing do not approximate the derivative. On 96 x 8 cells the
+    force has an error of 1 % for L/D from 0.1 to 4 at eccentricity ratios up to 0.9, and about 2 % up to
+    0.99. It takes about 0.5 ms.
 
     Parameters
     ----------
     cells : tuple of int
-        Cells around the film and along half the length, multiples of 4 and at least 16 and 4, about that many
-        with openings; along half of each land beside a circumferential groove. `solve` compares with half as
-        many.
+        Cells around the film and along half the length, multiples of 4 and at least 16 and 4. With openings
+        the numbers are approximate; beside a circumferential groove they count along half of each land.
+        `solve` compares with half as many.
     cavitation : Cavitation
         `Complementarity()`, `HalfSommerfeld()` or `FullFilm()`.
     film_start : FilmOnset
-        Where the film of a bearing without openings or pads starts: `FreeOnset()`, wherever pressure can be;
-        `MaximumGapOnset()`, opposite to the journal; or `FixedOnset(line=...)`, at an angle of the bearing.
+        Where the film of a bearing without openings or pads starts: `FreeOnset()`, wherever pressure can
+        build up; `MaximumGapOnset()`, opposite to the journal; or `FixedOnset(line=...)`, at an angle of the
+        bearing.
     mobility : Mobility or None
-        How easily the oil flows over the thickness of the film (`mobility_of`); None for laminar flow. A film
-        that changes with the speed by more than its source, by the density of a mobility or by its factor of
-        the Couette flow, is that of a journal at rest where the law alone is asked.
+        How easily the oil flows over the thickness of the film (`mobility_of`); None for laminar flow. A
+        mobility with a density, or with its own factor of the Couette flow, makes the film depend on the
+        speed separately; the bare film law then is that of a journal at rest.
     geometry : FilmGeometry
         Set by `fitted`, from the geometry of the bearing.
     reynolds_scale : float [m3/kg s]
@@ -134,9 +135,9 @@ class ReynoldsFilm(KernelFilm):
     def extrapolated(self, eccentricity: Array, source: Array, slenderness: float) -> tuple[Array, Array]:
         """Return the Richardson extrapolation of the force, (2, ...), and the error estimate, (...).
 
-        The estimate for `force` is |F_h - F_2h|/3, the extrapolation F_h + (F_h - F_2h)/3. The latter is
-        about ten times closer than `force`, but the edge of the ruptured zone jumps from node to node and
-        keeps it from converging faster than at second order.
+        The estimate for `force` is |F_h - F_2h|/3, the extrapolation F_h + (F_h - F_2h)/3. The extrapolation
+        is about ten times closer than `force`. It still converges at second order only, because the edge of
+        the ruptured zone jumps from node to node.
         """
         fine, coarse = self.force_pair(eccentricity, source, slenderness)
         extrapolated = richardson(fine, coarse, self.order)
@@ -161,11 +162,11 @@ class ReynoldsFilm(KernelFilm):
         """Return shear and flow, without slopes; see `FilmOptions`.
 
         Second order in the size of the cells, edges of the film included. Between openings the film begins
-        only where streamers or an opening bring the oil, so that it is smaller than the one that carries.
-        Openings that touch are one; a circumferential groove is the last one.
+        only where streamers or an opening bring oil, so this film is smaller than the one that carries the
+        load. Openings that touch are one; a circumferential groove is the last one.
 
         Beside openings that end within the bearing the film begins where Reynolds' equation says, and the
-        side flow is more than that of `JFOFilm`, which conserves the oil. The difference is 10 to 36 % with
+        side flow is larger than that of the mass-conserving `JFOFilm`. The difference is 10 to 36 % with
         grooves of 80 % of the length, and 64 % with a hole (`benchmarks/conserved.py`). The inflow of such
         openings is of first order, because of their corners.
 
@@ -287,11 +288,11 @@ class ExtrapolatedFilm(KernelFilm):
 class ShortFilm(KernelFilm):
     """Short-bearing film: axial flow only, pressure where the source is negative.
 
-    p = 6 viscosity g z (z - length)/(clearance^2 H^3) integrated over [t + pi/2, t + 3 pi/2] gives
-    (F_t, F_r) = -4 (L/D)^2 <(sin, cos)^T (sin, cos)> (g_s, g_c) with weight H^-3
-    (Ocvirk 1952; Szeri 2011, section 4.4). The pressure vanishes with g at both ends, so the turning arc
-    adds nothing to the derivative and the damping matrix is symmetric. In closed form, with exact
-    derivatives, in C (`native/films/short_kernel.h`).
+    p = 6 viscosity g z (z - length)/(clearance^2 H^3) integrated over [t + pi/2, t + 3 pi/2] gives (F_t, F_r)
+    = -4 (L/D)^2 <(sin, cos)^T (sin, cos)> (g_s, g_c) with weight H^-3 (Ocvirk 1952; Szeri 2011, section 4.4).
+    The pressure vanishes with g at both ends, so the rotation of the arc adds nothing to the derivative, and
+    the damping matrix is symmetric. The force is in closed form, with exact derivatives, in C
+    (`native/films/short_kernel.h`).
 
     Against the converged film on the same arc, at random states of large motion, the force has an error of
     6 % (median) and 28 % (90th percentile) at length / diameter 0.25, and of 23 % and 97 % at 0.5. A bearing

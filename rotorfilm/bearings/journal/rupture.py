@@ -114,9 +114,9 @@ def rigid_arc(start: Array, end: Array, rate: float) -> FilmArc:
 class FixedArc:
     """An arc fixed to the line of maximum film, which moves with the attitude angle: as published.
 
-    Sussi & Fridman (1978) use start 0 and extent pi. Meant for small motion about a static equilibrium:
-    beyond half-speed whirl this film carries tension, and since the arc follows the sense of rotation, the
-    force of a moving journal jumps where the speed passes zero.
+    Sussi & Fridman (1978) use start 0 and extent pi. It is meant for small motion about a static equilibrium:
+    beyond half-speed whirl this film has negative pressures. Since the arc follows the sense of rotation, the
+    force of a moving journal jumps where the speed changes sign.
 
     Parameters
     ----------
@@ -209,12 +209,12 @@ TURN = 2.0 * math.pi
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class ReynoldsArc:
-    """Prescribed start, and an end where the pressure of axial mode 1 leaves with no slope.
+    """Prescribed start, and Reynolds' condition (zero slope of the pressure in axial mode 1) at the end.
 
     The end lies between the trailing edge of the half circle where the source drives pressure and one turn
-    past the start. If the pressure still falls there, the film does not rupture and ends where it starts.
-    A start where the source draws the film apart (g > 0) leaves tension next to it, as the condition says
-    nothing of the start; `ComplementarityArc` frees both ends.
+    past the start. If the pressure still falls there, the film does not rupture and ends where it starts. If
+    the source draws the film apart at the start (g > 0), negative pressures remain there, because the
+    condition concerns the end only. `ComplementarityArc` frees both ends.
 
     Parameters
     ----------
@@ -297,8 +297,8 @@ class SlitArc:
     """A film that starts at a feed slit fixed in the bearing, theta_1 of Sussi & Fridman (1978), (20).
 
     It starts at gamma_1 = theta_1 - pi - phi from the line of maximum film, phi being the attitude of the
-    journal. The force then depends on the attitude, and its derivative by it has the term that the paper's
-    (31) lacks. The film goes from the slit in the sense of rotation.
+    journal. The force then depends on the attitude, and its derivative has a term that is missing in (31) of
+    the paper. The film extends from the slit in the sense of rotation.
 
     Parameters
     ----------
@@ -306,7 +306,7 @@ class SlitArc:
         Where the film starts, from the x axis toward y.
     extent : float or None [rad]
         Angle to a second slit where the film ends, from 0.001 to 2 pi, from the first toward y whatever the
-        rotation. None: the film ends where the pressure leaves with no slope, condition (38), as of
+        rotation. None: the film ends where the slope of the pressure is zero, condition (38), as in
         `ReynoldsArc`.
 
     Raises

@@ -56,7 +56,7 @@ class SplittingFilm:
         it the film is cut where the arc starts.
     rupture : Rupture
         Where the film ends: `FixedArc()` as published, `RotatingArc()` for large motion, `SlitArc(slit=...)`
-        from a slit in the bearing on, or where the pressure says: `ReynoldsArc()`, `ComplementarityArc()`.
+        from a slit in the bearing, and `ReynoldsArc()` or `ComplementarityArc()` where the pressure decides.
 
     Raises
     ------
@@ -66,13 +66,11 @@ class SplittingFilm:
     Warns
     -----
     ValidityWarning
-        If the rupture rule is not fit for this order: an arc longer than 3.6 rad, shorter than 2 pi, without
-        the constant function, and for `ReynoldsArc` n < 4.
+        If the rupture rule does not suit this order: an arc between 3.6 rad and 2 pi without the constant
+        function, or a `ReynoldsArc` with n < 4.
 
-    Notes
-    -----
-    On a fixed arc, n = 1 gives a damping matrix of rank one, so that no whirl threshold exists; from n = 2
-    on damping is symmetric exactly.
+    Notes ----- On a fixed arc, n = 1 gives a damping matrix of rank one, so that no whirl threshold exists;
+    from n = 2 on the damping matrix is exactly symmetric.
     """
 
     order: tuple[int, int | None] = (2, None)
@@ -117,7 +115,7 @@ class SplittingFilm:
         return response_on(arc, respond)
 
     def mirrored(self) -> SplittingFilm | None:
-        """Return this film in a mirror, y to -y; None where its arc turns with the journal."""
+        """Return the mirror image of this film (y to -y); None where its arc turns with the journal."""
         image = mirror_image(self.rupture)
         if image is None:
             return None
@@ -362,7 +360,7 @@ class SpectralArcFilm:
         return response_on(arc, lambda one: spectral_response(nodes, one, frame.chi[0], self.degree, axial))
 
     def mirrored(self) -> SpectralArcFilm | None:
-        """Return this film in a mirror, y to -y; None where its arc turns with the journal."""
+        """Return the mirror image of this film (y to -y); None where its arc turns with the journal."""
         image = mirror_image(self.rupture)
         return None if image is None else replace(self, rupture=image)
 

@@ -37,14 +37,14 @@ class HeatedBearing:
 
         capacity dT/dt = P(T) - C (T - T_s) Q_e - G (T - T_a),
 
-    whose rest is the heat balance of the film (`balance`). In vibration the state hardly moves, so that the
-    film keeps its temperature, as it does in a bearing. `force` and `jacobian` are those at
+    whose steady state is the heat balance of the film (`balance`). During vibration the state hardly changes,
+    so the film keeps its temperature, as in a real bearing. `force` and `jacobian` are those at
     `start_temperature`.
 
     Parameters
     ----------
     bearing : JournalBearing or LobedBearing
-        With oil and cooling, its temperature left to the heat balance.
+        Bearing with oil and cooling, whose temperature the heat balance determines.
     start_temperature : float or None [K]
         Temperature at t = 0; None for that of the fresh oil.
 
@@ -215,7 +215,7 @@ def heated_spec(
     Parameters
     ----------
     values : mapping of str to float
-        Of its parameters, in SI; `carry_over` where there are openings.
+        Values of its parameters, in SI; `carry_over` where there are openings.
     film : mapping of str to ndarray
         Tables of the film and of its losses; empty for the short film.
     oil : OilTable
@@ -386,7 +386,7 @@ class WarmBearing(LaminarFilm):
         Parameters
         ----------
         start_temperature : float or None [K]
-            As that of an equilibrium; None for that of the fresh oil.
+            Start temperature as that of an equilibrium; None for that of the fresh oil.
         """
         return HeatedBearing(bearing=self, start_temperature=start_temperature)
 
@@ -437,7 +437,7 @@ class FilmHeat(NamedTuple):
     power : float [W]
         Power that goes into the oil.
     viscosity : float [Pa s]
-        At which that is.
+        Viscosity at which that is.
     flow : float [m3/s]
         Effective flow Q_e of fresh oil.
     side_flow : float [m3/s]

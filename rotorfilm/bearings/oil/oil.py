@@ -60,10 +60,10 @@ class ViscosityLaw(Protocol):
         """Temperatures [K] between which the law holds."""
 
     def viscosity(self, temperature: ArrayLike) -> Array:
-        """Return the dynamic viscosity [Pa s] at temperatures [K], of their shape."""
+        """Return the dynamic viscosity [Pa s] at temperatures [K], shape as given."""
 
     def thinning(self, temperature: ArrayLike) -> Array:
-        """Return -d ln(viscosity)/d temperature [1/K] at temperatures [K], of their shape."""
+        """Return -d ln(viscosity)/d temperature [1/K] at temperatures [K], shape as given."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,7 +81,7 @@ class Walther:
     steepness : float [1]
         How steeply the viscosity falls, positive.
     density : float [kg/m3]
-        At 15 degrees Celsius.
+        Density at 15 degrees Celsius.
     """
 
     intercept: float
@@ -120,7 +120,7 @@ class Walther:
         return float(coldest), float(hottest)
 
     def kinematic(self, temperature: ArrayLike) -> Array:
-        """Return the kinematic viscosity [m^2/s] at temperatures [K], of their shape."""
+        """Return the kinematic viscosity [m^2/s] at temperatures [K], shape as given."""
         return 1e-6 * (10.0 ** self._lg(temperature) - _OFFSET)
 
     def viscosity(self, temperature: ArrayLike) -> Array:
@@ -290,7 +290,7 @@ class Oil:
     conductivity : float [W/(m K)]
         Thermal conductivity, the same at all temperatures.
     assumed : tuple of str
-        What of this oil was not given but assumed, for remarks.
+        Names of the properties that were assumed, for notes in answers.
 
     Raises
     ------
@@ -410,9 +410,9 @@ class Oil:
         return cls.thinning_at(viscosity, 40.0 + CELSIUS, 0.0, **further)
 
     def viscosity(self, temperature: ArrayLike) -> Array:
-        """Return the dynamic viscosity [Pa s] at temperatures [K], of their shape.
+        """Return the dynamic viscosity [Pa s] at temperatures [K], shape as given.
 
-        A `ValidityWarning` tells of temperatures beyond the range of the law.
+        A `ValidityWarning` is given for temperatures beyond the range of the law.
 
         Raises
         ------
@@ -439,18 +439,18 @@ class Oil:
         return T
 
     def density(self, temperature: ArrayLike) -> Array:
-        """Return the density [kg/m3] at temperatures [K], of their shape."""
+        """Return the density [kg/m3] at temperatures [K], shape as given."""
         return self.reference_density * relative_density(self._liquid(temperature))
 
     def heat_capacity(self, temperature: ArrayLike) -> Array:
-        """Return the heat capacity [J/(kg K)] at temperatures [K], of their shape."""
+        """Return the heat capacity [J/(kg K)] at temperatures [K], shape as given."""
         T = self._liquid(temperature)
         if self.fixed_heat_capacity is not None:
             return np.full(T.shape, self.fixed_heat_capacity)
         return (1683.0 + 3.39 * (T - CELSIUS)) / np.sqrt(self.reference_density / _WATER)
 
     def volumetric_heat(self, temperature: ArrayLike) -> Array:
-        """Return density times heat capacity [J/(m^3 K)] at temperatures [K], of their shape."""
+        """Return density times heat capacity [J/(m^3 K)] at temperatures [K], shape as given."""
         return self.density(temperature) * self.heat_capacity(temperature)
 
 
@@ -520,26 +520,26 @@ def require_absolute(name: str, temperature: float) -> None:
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class Cooling:
-    """How the heat of a film leaves: with the oil that leaks and is replaced, and through the housing.
+    """How heat leaves a film: with the side flow, which fresh oil replaces, and through the housing.
 
     Parameters
     ----------
     supply_temperature : float [K]
-        Of the fresh oil.
+        Supply temperature of the fresh oil.
     ambient_temperature : float or None [K]
         Around the housing; None for that of the fresh oil.
     housing_conductance : float [W/K]
         Heat flow through bush and housing per kelvin between film and ambient; 0 where all heat leaves with
         the oil.
     carry_over : float [1]
-        Share of the oil arriving at an opening that goes on into the next film, 0 to 1; without openings it
-        has no part.
+        Share of the oil arriving at an opening that goes on into the next film, 0 to 1; it is not used
+        without openings.
     bush_heat_capacity : float or None [J/K]
-        Of the bush, and of what of housing and shaft warms with it. None for a steel ring to `RING` times the
-        radius.
+        Heat capacity of the bush and of the parts of housing and shaft that warm with it. None takes a steel
+        ring from the bore to `RING` times the radius.
     full_gap : bool
-        Whether oil fills the whole gap also where the film is ruptured. By default it is in streamers there,
-        which take less power.
+        Whether oil fills the whole gap also where the film is ruptured. By default it flows in streamers
+        there, which need less power.
 
     Raises
     ------
@@ -573,7 +573,7 @@ class Cooling:
 
     @property
     def coldest(self) -> float:
-        """Temperature below which no film of this cooling gets [K]."""
+        """Lowest possible temperature of a film with this cooling [K]."""
         return (
             min(self.supply_temperature, self.ambient)
             if self.housing_conductance
@@ -628,7 +628,7 @@ def compression(
     ----------
     load : array_like, shape (2,) [N]
     radius, length : float [m]
-        Of the bearing.
+        Radius and length of the bearing.
     bulk_modulus : float [Pa]
     """
     return math.hypot(*load) / (2.0 * radius * length) / bulk_modulus
@@ -662,10 +662,10 @@ def film_reynolds(
     ----------
     radius, clearance : float [m]
     viscosity : float [Pa s]
-        At the temperature of the film.
+        Viscosity at the temperature of the film.
     density : float [kg/m3]
     speed : float [rad/s]
-        Of the journal, of either sign.
+        Speed of the journal, of either sign.
     """
     reynolds = abs(speed) * radius * clearance * density / viscosity
     return FilmNumbers(reynolds, reynolds * math.sqrt(clearance / radius))
@@ -693,7 +693,7 @@ class LaminarFilm(FilmUnits):
         ----------
         speed : float [rad/s]
         temperature : float, optional [K]
-            Of the oil in the mean; by default that of the bearing.
+            Temperature of the oil in the mean; by default that of the bearing.
         hottest : float, optional [K]
             Of the oil; by default as warm as the mean.
         """

@@ -65,8 +65,8 @@ class Lobe(OwnCenter):
     preload : float [1]
         1 - c_b/c_p with the assembled clearance c_b, in [0, 1).
     offset : float [1]
-        Place of the least film at the centered journal, as a share of the arc from its start, in [0, 1]:
-        0.5 for lobes, 1 where the film narrows all along the pad.
+        Place of the minimum film of a centered journal, as a share of the arc from its start, in [0, 1]. It
+        is 0.5 for symmetric lobes and 1 where the film narrows along the whole pad.
 
     Raises
     ------
@@ -119,18 +119,18 @@ def lobe_set(
     Parameters
     ----------
     name : str
-        `elliptical` has the arcs 10 to 170 and 190 to 350 deg. `three_lobe` has middles at 90, 210 and
-        330 deg, 100 deg each, and `four_lobe` at 0, 90, 180 and 270 deg, 75 deg each. `offset_halves` is as
-        elliptical, with the least film at the trailing ends. `tapered_land` is as three_lobe, where the film
-        narrows over the whole pad.
+        `elliptical` has arcs from 10 to 170 deg and from 190 to 350 deg. `three_lobe` has lobes of 100 deg,
+        centered at 90, 210 and 330 deg. `four_lobe` has lobes of 75 deg, centered at 0, 90, 180 and 270 deg.
+        `offset_halves` is like elliptical, with the minimum film at the trailing ends. `tapered_land` is like
+        three_lobe, with a film that narrows over the whole pad.
     preload : float [1]
-        Of each lobe.
+        Preload of each lobe.
     extent : float [rad], optional
-        Angle that each covers.
+        Angle that each lobe covers.
     offset : float [1], optional
-        Of each lobe.
+        Offset of each lobe.
     turned : float [rad]
-        Angle by which all are turned in the sense of +z.
+        Angle by which all lobes are rotated about +z.
 
     Raises
     ------
@@ -189,7 +189,7 @@ class BoundLobes(BoundKernel):
     kernel : LobesKernel
         The compiled films.
     clearance : float [m]
-        Of a pad.
+        Clearance of a pad.
     lobes : tuple of Lobe
     """
 
@@ -217,9 +217,9 @@ class LobedBearing(FilmReaction, PadBearing):
     """A journal bearing of fixed pads, such as an elliptical one: a Reaction and a static Model.
 
     x and y are Cartesian from the bearing center, rotation is about +z, the force acts on the journal. The
-    film of a pad knows the journal only from the pad's own center of curvature (Lund & Thomsen 1978); that of
-    the bearing is their sum. Eccentricity ratios are in pad clearances. Dimensions, clearance and lubricant
-    are given as to every `PadBearing`.
+    film of each pad depends on the journal position relative to the pad's own center of curvature (Lund &
+    Thomsen 1978). The force of the bearing is the sum over the pads. Eccentricity ratios are in pad
+    clearances. Dimensions, clearance and lubricant are the parameters of `PadBearing`.
 
     Parameters
     ----------
@@ -315,8 +315,8 @@ class LobedBearing(FilmReaction, PadBearing):
     ) -> BearingLosses | None:
         """Return power loss, torques and oil flow; see `losses_of_pads`. None if the film law has none.
 
-        The opening of a number is the gap behind the lobe of that number, in the sense of +theta. Where
-        `full_gap` is None, it is that of the cooling, or false.
+        Opening i is the gap behind lobe i, in the sense of +theta. If `full_gap` is None, the value of the
+        cooling is used, or false.
 
         Raises
         ------
@@ -366,8 +366,8 @@ class LobedBearing(FilmReaction, PadBearing):
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this bearing; None if its film is no map.
 
-        Nor has a subclass. Its parameters are the dimensions, with the clearance of the pads, and the
-        viscosity; radius and length are fixed.
+        A subclass has no kernel either. The parameters of the kernel are the dimensions, with the clearance
+        of the pads, and the viscosity; radius and length are fixed.
         """
         if type(self) is not LobedBearing or not isinstance(self.film, PadMapFilm) or self.is_warming:
             return None

@@ -69,9 +69,9 @@ class OwnCenter:
 
 @dataclass(frozen=True, kw_only=True)
 class PadBearing(WarmBearing):
-    """Pads around a journal, as `LobedBearing`, `PressureDamBearing` and `TiltingPadBearing` have them.
+    """Common parameters of bearings with pads: `LobedBearing`, `PressureDamBearing`, `TiltingPadBearing`.
 
-    A bearing adds its pads, `preloads` and `extents`.
+    Each bearing adds its pads, `preloads` and `extents`.
 
     Parameters
     ----------
@@ -81,21 +81,22 @@ class PadBearing(WarmBearing):
         Axial length of the pads.
     pad_clearance : float or None [m]
         Radial clearance c_p of a pad: its radius of curvature less that of the journal. Give this or the
-        assembled one.
+        assembled clearance.
     assembled_clearance : float or None [m]
-        c_b = (1 - preload) c_p, as drawings and ROSS have it: the least gap around a centered journal; for
-        pads of one preload.
+        c_b = (1 - preload) c_p, as given on drawings and in ROSS: the smallest gap around a centered journal.
+        All pads must have the same preload.
     viscosity : float or None [Pa s]
         Dynamic viscosity of the lubricant, the same at all temperatures; None where `oil` is given.
     oil : Oil or None
         The lubricant by its viscosity over temperature, in place of `viscosity`.
     temperature : float or None [K]
-        Of the films, where the oil is given; None leaves it to the heat balance, with `cooling`, of a journal
-        at rest: `equilibrium` finds it.
+        Temperature of the films, where the oil is given. With None and a `cooling`, the heat balance of a
+        journal at rest determines it, and `equilibrium` finds it.
     cooling : Cooling or None
-        What takes the heat away; needed for a heat balance only. Its carry-over is from pad to pad.
+        Supply oil and surroundings that remove the heat; needed for a heat balance only. The carry-over is
+        from pad to pad.
     turbulence : Turbulence or None
-        Turbulence of the oil, on films on a grid: `PadMapFilm` becomes `PadGridFilm()`. None for laminar oil.
+        Turbulence model, for films on a grid: `PadMapFilm` becomes `PadGridFilm()`. None for laminar oil.
 
     Raises
     ------
@@ -167,7 +168,7 @@ class PadBearing(WarmBearing):
         return FilmGeometry(pads=pads, recesses=self.recesses)
 
     def arc_at(self, angle: Array) -> np.ndarray:
-        """Return the numbers of the pads at angles (N,) [rad], between two of them that of the nearer one."""
+        """Return the number of the pad at each angle (N,) [rad]; between two pads the nearer one."""
         middles, extents = np.array([(arc.middle, arc.extent) for arc in self.arcs]).T
         away = np.abs((angle[:, None] - middles + np.pi) % TURN - np.pi) - 0.5 * extents
         return np.asarray(np.argmin(away, axis=1))
@@ -205,15 +206,15 @@ class PadBearing(WarmBearing):
         return film.at_scale(self.radius * self.clearance / self.film_viscosity)
 
     def film_at_unit_viscosity(self) -> None:
-        """Return no film for the loops in C over warm films, which know one film only."""
+        """Return None: the loops in C over films with heat support a single film only."""
 
     def heat_jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
-        """Raise InputError: of pads, the heat of lobes alone has slopes."""
+        """Raise InputError: among bearings with pads, only fixed lobes have derivatives of the heat."""
         kind = type(self).__name__
         raise InputError(f"bearing must have slopes of its heat, as a LobedBearing, got a {kind}")
 
     def force_noise(self, speed: float) -> float:
-        """Return what roundoff leaves of the force [N], as pads press each other; see `core.port`."""
+        """Return the roundoff error of the force [N], as preloaded pads press each other; see `core.port`."""
         return _ROUNDOFF * self.force_scale * abs(speed)
 
 
@@ -236,7 +237,7 @@ class PadUnderJournal(NamedTuple):
     eccentricity : ndarray, shape (2, n) [1]
         Journal from the pad's center of curvature, in clearances of the pad.
     force : ndarray, shape (2, n) [N]
-        Of its film on the journal.
+        Force of its film on the journal.
     eccentricity_slopes, force_slopes : ndarray, shape (2, 5), or None [1/m ...], [N/m ...]
         Derivatives of both by x, y, vx, vy, speed, of one state, n = 1; None where they are not asked for.
     """
@@ -276,7 +277,7 @@ def losses_of_pads(
     film : LossyPadFilm
         The film law of its pads.
     pads : sequence of PadUnderJournal
-        At the states.
+        Pads at the states.
     state : (ndarray, ndarray, ndarray)
         Positions (2, ...) [m], velocities (2, ...) [m/s] and speeds (...) [rad/s].
     full_gap : bool
@@ -324,7 +325,7 @@ def collected_losses(
     drag : ndarray, shape (n,) [N m]
         Torque on the journal.
     force : ndarray, shape (2, n) [N]
-        On the journal.
+        Force on the journal.
     flows : (ndarray, ndarray), shape (pads, n) [1/s]
         Oil that enters the film of each pad, and what comes to the opening behind it, in units of c_p R L.
     state

@@ -131,7 +131,7 @@ class PadResolution:
     xi_range : (float, float) [1]
         First and last node towards the middle of the pad, (r - r_p)/c_p there; below 1.
     mobility : Mobility or None
-        Of the oil, over the thickness.
+        Mobility of the oil, over the thickness.
     reach : float [1]
         |tanh Y| of the last nodes: eta there as a fraction of that at which the journal touches the pad.
     """

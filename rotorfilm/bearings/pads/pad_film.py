@@ -57,30 +57,29 @@ class PadFilm(Protocol):
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class PadMapFilm:
-    """The film of a pad by its map: that of a fine grid, five hundred times as fast as `PadGridFilm()`.
+    """The film of a pad from a map of a fine grid, about 500 times as fast as `PadGridFilm()`.
 
-    Its force is within 1e-3 of that of the grid in 9 of 10 states, and within 5e-3 in 99 of 100. These errors
-    are relative to the force, or to 5 % of the largest force at that position where the force is smaller.
-    Errors are largest where the journal nearly touches; `PadMapTable.bound` tells them.
+    Its force is within 1e-3 of that of the grid in 90 % of random states, and within 5e-3 in 99 %. These
+    errors are relative to the force, or to 5 % of the largest force at that position where the force is
+    smaller than that. Errors are largest where the journal nearly touches; `PadMapTable.bound` returns them.
 
     The force is the gradient of a tabulated potential (`native/films/map_kernel.h`), so that the damping
     matrix is symmetric and the derivatives are exact. All pads of one extent and length/diameter share a map,
     whatever their preload, offset and place. It is made in some seconds on first use, and kept in the folder
-    that the environment variable ROTORFILM_CACHE names, or the platform's cache. That of pads of a preload
-    above 0.5 goes on to a least film of 0.005 pad clearances in place of 0.03; a bearing takes it where the
-    resolution is the default.
+    that the environment variable ROTORFILM_CACHE names, or the platform's cache. Pads with a preload above
+    0.5 get another default map, which covers minimum films down to 0.005 pad clearances instead of 0.03.
 
     Parameters
     ----------
     resolution : PadResolution
         Cells and nodes of the map.
     tables : tuple of PadMapTable
-        Maps that are there already: for pads of these shapes nothing is built nor looked for.
+        Existing maps: pads of these shapes use them, without a search on disk.
     mobility : Mobility or None
         How easily the oil flows over the thickness of the film (`mobility_of`); None for laminar flow. The
         factor of its Couette flow is 1, and it does not change with the speed.
     much_preload : bool
-        Set by the bearing: whether a pad has a preload above 0.5, for which the default map is another one.
+        Whether a pad has a preload above 0.5, which selects another default map. The bearing sets it.
     """
 
     resolution: PadResolution = FINE
@@ -125,7 +124,7 @@ class PadMapFilm:
 
     @property
     def own_resolution(self) -> PadResolution:
-        """Cells and nodes of the map of these pads; the default ones go by their preload."""
+        """Cells and nodes of the map of these pads; the default depends on their preload."""
         near = self.much_preload and self.resolution == FINE
         return replace(NEAR if near else self.resolution, mobility=self.mobility)
 
@@ -153,13 +152,14 @@ def _kept(film: PadMapFilm, extent: float, slenderness: float) -> tuple[PadMapTa
 class PadGridFilm:
     """The two-dimensional film of a pad: Reynolds' equation by finite volumes, extrapolated from two grids.
 
-    Its errors are measured as those of `PadMapFilm`.
+    `PadMapFilm` explains how its errors are measured.
 
     Parameters
     ----------
     cells : (int, int)
         Cells along the pad and along half its length: multiples of 4, at least 16 and 4. The force is
-        extrapolated from these and half as many; that of 96 x 8 is within 1e-3 in 99 of 100 states.
+        extrapolated from these cells and half as many. With 96 x 8 cells it is within 1e-3 in 99 % of random
+        states.
     mobility : Mobility or None
         How easily the oil flows over the thickness of the film (`mobility_of`); None for laminar flow.
     reynolds_scale : float [m3/kg s]

@@ -30,7 +30,7 @@ class PadMatrices(Readable):
     stiffness : ndarray, shape (n, n) [N/m]
     damping : ndarray, shape (n, n) [N s/m]
     mass : ndarray, shape (n, n) [kg]
-        Of the pads; that of the journal is 0.
+        Mass of the pads; that of the journal is 0.
     position : ndarray, shape (2,) [m]
     speed : float [rad/s]
     unloaded : ndarray of bool, shape (N,)
@@ -45,14 +45,14 @@ class PadMatrices(Readable):
     unloaded: NDArray[np.bool_]
 
     def reduced(self, frequency: float, growth_rate: float = 0.0) -> ReducedCoefficients:
-        """Return what the journal feels when it moves as exp(s t): the Schur complement of K + s C + s^2 M.
+        """Return the reduced K and C of the journal for motion as exp(s t), by a Schur complement.
 
-        Equal to Lund's (1964) assembly of single pads.
+        The result equals Lund's (1964) assembly of single pads.
 
         Parameters
         ----------
         frequency : float [rad/s]
-            Of the whirl, of either sign; 0 for the limit of slow motion.
+            Frequency of the whirl, of either sign; 0 for the limit of slow motion.
         growth_rate : float [1/s]
             s = growth_rate + i frequency; 0 at frequency 0.
 
@@ -82,14 +82,15 @@ class PadMatrices(Readable):
         Parameters
         ----------
         rotor_mass : float [kg]
-            That the bearing carries.
+            Rotor mass that the bearing carries.
         """
         return StatesStiffness(self.linearization()).exponents(rotor_mass)
 
     def linearization(self) -> Linearization:
         """Return the loaded pads as states under a journal: inputs x, y, vx, vy, outputs its force.
 
-        Velocities of what has mass are states; of what has none they follow from its balance.
+        Pads with mass have their velocities as further states; without mass the velocities follow from the
+        balance of moments.
         """
         kept = [0, 1, *self._loaded]
         K, C, M = (whole[np.ix_(kept, kept)] for whole in (self.stiffness, self.damping, self.mass))

@@ -47,14 +47,15 @@ OPEN = 4.0
 def even_pivots(
     pads: int, *, between_pads: bool = False, load_direction: float = -0.5 * math.pi
 ) -> tuple[float, ...]:
-    """Return the angles of evenly spaced pivots, the first the one that the load points to [rad].
+    """Return the angles of evenly spaced pivots [rad], the first one in the direction of the load.
 
     Parameters
     ----------
     pads : int
         Number of pads, at least 2.
     between_pads : bool
-        Whether the load points between two pivots, and the first is the next in the positive sense.
+        Whether the load points between two pivots; the first pivot is then the next one in the positive
+        sense.
     load_direction : float [rad]
         Angle of the load from +x towards +y; -pi/2 is down.
     """
@@ -178,7 +179,7 @@ def held_force(bearing: Any, u: Array, tilts: Array, rates: Array | None = None)
         x, y [m], vx, vy [m/s] and speed [rad/s].
     tilts : ndarray, shape (pads,) or (pads, n) [m]
     rates : ndarray, shape (pads, n) [m/s], optional
-        Of the tilts, 0 by default.
+        Rates of the tilts, 0 by default.
     """
     n = u.shape[1]
     held = np.broadcast_to(np.reshape(tilts, (len(bearing.pivots), -1)), (len(bearing.pivots), n))
@@ -229,14 +230,14 @@ class TiltedPads(Readable):
     pivots : ndarray, shape (pads,) [rad]
         Angles of the pivots.
     tilts : ndarray, shape (pads,) [m]
-        Tilt as a length: its angle times the distance from the pivot's center of rotation to the film. Of an
-        unloaded pad the end of the tilts at which it has no film.
+        Tilt as a length: its angle times the distance from the pivot's center of rotation to the film. For an
+        unloaded pad it is the limit of the tilts at which it has no film.
     pivot_deflections : ndarray, shape (pads,) [m]
-        Of pivots on springs, negative outward.
+        Deflections of pivots on springs, negative outward.
     pad_loads : ndarray, shape (pads,) [N]
-        On the pivots.
+        Pad loads on the pivots.
     film_thickness : ndarray, shape (pads,) [m]
-        The least of each pad.
+        Minimum film of each pad.
     unloaded : ndarray of bool, shape (pads,)
         Whether a pad has no film: its tilt is then not unique.
     """
@@ -251,7 +252,7 @@ class TiltedPads(Readable):
 
 @dataclass(frozen=True, kw_only=True)
 class PadEquilibrium(Equilibrium):
-    """The static position of a journal on tilting pads, and how these stand.
+    """The static equilibrium of a journal on tilting pads, with the tilts of the pads.
 
     Eccentricity ratios are in clearances of a pad, the least film is that of all pads.
 
@@ -610,7 +611,7 @@ class TiltedFilm(NamedTuple):
         Deflections of the pivots and tilts, over the clearance.
     force : ndarray, shape (pads, 2) [1/s]
     slopes : (ndarray, ndarray), shape (pads, 2, 2)
-        By the place of the journal, and by the source.
+        Slopes by the place of the journal, and by the source.
     loaded : ndarray of bool, shape (pads,)
     """
 

@@ -43,16 +43,16 @@ from .pad_bearing import OwnCenter, PadBearing, collected_losses, cross
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class Recess:
-    """A recess of one depth: a pressure dam or step where it ends inside of its pad, else a relief track.
+    """A recess of constant depth: a pressure dam or step if it ends inside its pad, else a relief track.
 
     Parameters
     ----------
     depth : float [m]
         Below the pad's surface; 0 is none.
     end : float [rad]
-        Angle in the bearing frame of its edge at +theta: of the step, for a journal that turns in that sense.
+        Angle in the bearing frame of its edge on the +theta side. This is the step for positive rotation.
     share : float [1]
-        Part of the length that it takes, about the middle; 1 is a step, or a tapered land, of full length.
+        Share of the bearing length that it takes, about the middle; 1 is a step of full length.
     start : float or None [rad]
         Angle of its other edge; None is the start of the pad.
 
@@ -80,22 +80,23 @@ class Recess:
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class RecessedPad(OwnCenter):
-    """A fixed pad: an arc of the wall with its own center of curvature; ambient pressure, 0, at its ends.
+    """A fixed pad, which may have a recess: an arc of the wall with its own center of curvature.
 
-    Its radius of curvature is that of the journal and the pad clearance. Where a centered journal is closest,
-    it leaves the assembled clearance, (1 - preload) times that of the pad.
+    Its radius of curvature is the journal radius plus the pad clearance, and its ends are at ambient
+    pressure. The smallest gap around a centered journal is the assembled clearance, (1 - preload) times the
+    pad clearance.
 
     Parameters
     ----------
     start : float [rad]
-        First end in the bearing frame, from +x towards +y: the leading edge for a journal that turns so.
+        First end in the bearing frame, from +x towards +y: the leading edge for positive rotation.
     extent : float [rad]
         Angle covered, 0 < extent < 2 pi.
     preload : float [1]
         1 - assembled clearance / pad clearance, 0 <= preload < 1; 0 is a pad about the bearing center.
     offset : float [1]
-        Where a centered journal is closest, as part of the extent from the start, 0 to 1: 0.5 in the middle,
-        1 at the end, where the film converges all along.
+        Place of the smallest gap around a centered journal, as a share of the extent from the start, 0 to 1.
+        It is 0.5 in the middle and 1 at the end, where the film converges along the whole pad.
     recess : Recess or None
         Dam, step or relief track.
 
@@ -174,10 +175,11 @@ class PressureDamBearing(PadBearing, KernelReaction):
     pads : tuple of RecessedPad
         See `pressure_dam_pads` for the usual two.
     cells : tuple of int
-        Cells around each pad and along half the length, multiples of 4 and at least 16 and 8; on both sides
-        of the edges of a recess about as many as its part of them, at least 4.
+        Cells around each pad and along half the length, multiples of 4 and at least 16 and 8; a recess gets
+        its share of them, at least 4 on each side of its edges.
     extrapolated : bool
-        Whether the force is extrapolated from these cells and half as many, by a third of the difference.
+        Whether the force is extrapolated from these cells and half as many, by adding a third of the
+        difference.
     mobility : Mobility or None
         How easily the oil flows over the thickness of the film (`mobility_of`); None for laminar flow.
 
@@ -194,12 +196,13 @@ class PressureDamBearing(PadBearing, KernelReaction):
 
         (H^3 P_theta)_theta + (L/D)^-2 H^3 P_zz = -w.n + (speed/2) D_theta,  p = 12 viscosity (R/c_p)^2 P,
 
-    P >= 0 (Nicholas & Allaire 1980). Edges of recesses are on nodes, and what flows across a step is the
-    difference of the Couette flow of both sides. Derivatives are those of the discrete film, the edge of the
-    ruptured zone held, where its pressure and slope vanish; the damping matrix is symmetric. Left out are
-    losses and inertia at the step, inlet pressure and hot oil from pad to pad. A mobility is a factor of H^3
-    that goes by the depth in a recess, which is turbulent first.
-    The force is of degree one in velocity and speed together: there is no map of it over the source alone.
+    P >= 0 (Nicholas & Allaire 1980). Edges of recesses are on nodes, and the source at a step is the
+    difference of the Couette flow on both sides. Derivatives are those of the discrete film with the edge of
+    the ruptured zone held, since pressure and slope vanish there; the damping matrix is symmetric. Losses and
+    inertia at the step, inlet pressure, and hot oil carry-over from pad to pad are neglected. A mobility is a
+    factor of H^3 that depends on the local depth: a recess becomes turbulent first. The force is homogeneous
+    of degree one in velocity and speed together. It does not depend on the source alone, so there is no map
+    of it.
 
     Examples
     --------
@@ -279,7 +282,7 @@ class PressureDamBearing(PadBearing, KernelReaction):
     def minimum_film(self, position: ArrayLike) -> Array:
         """Return the least film over all pads [m], shape (...), of journals at positions (2, ...) [m].
 
-        It is not positive where one is touched.
+        It is zero or negative where the journal touches a pad.
         """
         at = require_vector("position", position)
         films = [self._place.least(x, y)[0] for x, y in at.reshape(2, -1).T.tolist()]
@@ -293,7 +296,7 @@ class PressureDamBearing(PadBearing, KernelReaction):
     def require_film(self, position: Array) -> None:
         """Raise FilmContactError, with the pad, unless the journal at position (2, ...) [m] touches none.
 
-        Inside the circle of the assembled clearance it never does, outside it need not.
+        Inside the circle of the assembled clearance the journal touches no pad.
         """
         flat = position.reshape(2, -1)
         for x, y in flat[:, ~(np.hypot(*flat) < self.bore_clearance)].T.tolist():
@@ -306,7 +309,7 @@ class PressureDamBearing(PadBearing, KernelReaction):
                 )
 
     def report(self, status: int, state: tuple[float, ...] | list[float]) -> None:
-        """Raise what the status of a state x, y, vx, vy, speed says."""
+        """Raise the error that belongs to the status of a state x, y, vx, vy, speed."""
         x, y, vx, vy, speed = state
         said = f"got ({x!r}, {y!r}) m, ({vx!r}, {vy!r}) m/s and {speed!r} rad/s"
         if status == Status.UNDEFINED:
@@ -331,9 +334,10 @@ class PressureDamBearing(PadBearing, KernelReaction):
         return found.reshape(2, 5, *position.shape[1:])
 
     def force_error(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return the estimate of the error of the force of these cells, not extrapolated [N], shape (...).
+        """Return the estimated error of the force on these cells, without extrapolation [N], shape (...).
 
-        It is a third of the difference from half as many; the extrapolated force is closer.
+        It is a third of the difference from the force on half as many cells; the extrapolated force is
+        closer.
 
         Parameters
         ----------
@@ -361,18 +365,17 @@ class PressureDamBearing(PadBearing, KernelReaction):
     ) -> BearingLosses:
         """Return power loss, torques and oil flow, by the film on these cells.
 
-        The opening of a number is the gap behind the pad of that number, in the sense of +theta. Where
-        `full_gap` is None, it is that of the cooling, or false.
+        Opening i is the gap behind pad i, in the sense of +theta. If `full_gap` is None, the value of the
+        cooling is used, or false.
 
         Raises
         ------
         InputError, FilmContactError
             As `force`.
 
-        Notes
-        -----
-        As `losses_of_pads`; pressure on the steps adds c_p D p/2 to the torque, integrated along their edges.
-        A film begins only where streamers bring what it takes; its force is that of the film without this.
+        Notes ----- As `losses_of_pads`; pressure on the steps adds c_p D p/2 to the torque, integrated along
+        their edges. For the flow, a film begins only where streamers bring enough oil; the force does not
+        include this effect.
         """
         q, v, omega = broadcast_state(position, velocity, speed)
         self.require_film(q)
@@ -443,26 +446,26 @@ def pressure_dam_pads(
 ) -> tuple[RecessedPad, ...]:
     """Return the two pads of a pressure dam bearing that carries a load along -y.
 
-    The axial grooves are at 0 and 180 deg. The upper pad has the dam, from its leading edge for a journal
-    that turns about +z; the lower one may have a relief track all along it, which loads its lands and so
-    the bearing (Nicholas, Barrett & Leader 1980).
+    The axial grooves are at 0 and 180 deg. The dam in the upper pad begins at its leading edge (rotation
+    about +z). The lower pad may have a relief track along its whole arc, which increases the load on its
+    lands (Nicholas, Barrett & Leader 1980).
 
     Parameters
     ----------
     depth : float [m]
-        Of the dam; 0 is a two-groove bearing.
+        Depth of the dam; 0 is a two-groove bearing.
     end : float [rad]
         Angle of the step, from +x: 125 to 150 deg, typically.
     share : float [1]
-        Part of the length that the dam takes, about the middle.
+        Share of the length that the dam takes, about the middle.
     track_depth : float [m]
-        Of the relief track; 0 is none.
+        Depth of the relief track; 0 for no track.
     track_share : float [1]
-        Part of the length that the track takes.
+        Share of the length that the track takes.
     groove : float [rad]
         Angle of each axial groove.
     preload : float [1]
-        Of both pads, closest in their middle.
+        Preload of both pads, with the smallest gap in their middle.
 
     Raises
     ------
@@ -562,7 +565,7 @@ class DamKernel:
     Parameters
     ----------
     rows : ndarray, shape (pads, COLUMNS)
-        Of `pad_rows`.
+        Rows of `pad_rows`.
     dimensions : sequence of float
         Radius, length, clearance of a pad [m] and viscosity [Pa s].
     extrapolated : bool

@@ -50,15 +50,16 @@ class TiltingPadBearing(Called, PadBearing):
 
     x and y are Cartesian from the bearing center, angles are from +x towards +y, rotation is about +z, the
     force acts on the journal. Pads without inertia tilt so that the film has no moment about their pivots;
-    they are N states, not stiff. With inertia there are 2 N and the equations are stiff. A pad on a spring
-    has the deflection of its pivot as a further state. A pad that loses its film stays as it is until the
-    journal returns. Friction of film and pivots on the tilt, of the order clearance / radius, is left out.
+    the N pads then have N states, and the equations are not stiff. With pad inertia there are 2 N states and
+    the equations are stiff. A pad on a spring has the deflection of its pivot as a further state. A pad that
+    loses its film keeps its tilt until the journal returns. The moments of film and pivot friction, of the
+    order clearance / radius, are neglected.
 
-    `equilibrium` finds position and pads at rest, `coefficients` what the journal feels, at a frequency that
-    the result names, `at_rest().matrices` stiffness and damping of journal and pads together. `force` and
-    `jacobian` are those of pads held at their start.
+    `equilibrium` finds the position and the tilts at rest. `coefficients` returns reduced K and C of the
+    journal at a frequency, which the result names. `at_rest().matrices` has stiffness and damping of journal
+    and pads together. `force` and `jacobian` hold the pads at their start.
 
-    Dimensions, clearance and lubricant are given as to every `PadBearing`; the assembled clearance c_b is the
+    Dimensions, clearance and lubricant are the parameters of `PadBearing`. The assembled clearance c_b is the
     gap at a pivot around a centered journal. Eccentricities of ROSS and Someya are over c_b, those of Lund
     and Thomsen over c_p.
 
@@ -69,21 +70,22 @@ class TiltingPadBearing(Called, PadBearing):
     extent : float [rad]
         Angle that a pad covers, below pi.
     pivot_offset : float [1]
-        Share of a pad before its pivot, from its start in the positive sense: 0.5 in the middle, more
-        towards the trailing end of a journal that turns in that sense.
+        Share of the pad before its pivot, from its start in the positive sense. It is 0.5 in the middle, and
+        more if the pivot is closer to the trailing end (positive rotation).
     preload : float [1]
         1 - c_b / c_p, below 1.
     pivot_stiffness : float or None [N/m]
-        Of a spring below each pivot, along its direction; None for rigid ones.
+        Stiffness of each pivot in the radial direction; None for rigid pivots.
     pad_inertia : float or None [kg m2]
-        Of a pad about its pivot; None for pads that follow at once.
+        Moment of inertia of a pad about its pivot; None for pads without inertia.
     pivot_distance : float [m]
-        From the film back to the center about which a pad rolls or rocks.
+        Distance from the film to the center about which a pad rolls or rocks, behind it.
     pad_mass : float or None [kg]
-        That moves with the pivot; needed with `pivot_stiffness` and `pad_inertia` together, and only then.
+        Mass of a pad that moves with the pivot. It is needed if both `pivot_stiffness` and `pad_inertia` are
+        given, and only then.
     start : tuple of floats [m]
-        Tilts of the pads at t = 0, as lengths, and after them deflections of pivots on springs; empty for
-        those at rest around a centered journal that turns in the positive sense.
+        Tilts of the pads at t = 0, as lengths, followed by the deflections of pivots on springs. Empty takes
+        the tilts at rest around a centered journal with positive rotation.
     film : PadFilm
         The film law of a pad.
 
@@ -165,17 +167,17 @@ class TiltingPadBearing(Called, PadBearing):
 
     @property
     def travel_limit(self) -> float:
-        """Distance [m] that the journal center stays within: the farthest corner that rigid pivots leave.
+        """Largest distance [m] of the journal center: the farthest corner that rigid pivots allow.
 
-        Pivots on springs may give way: twice that. The pads themselves say where they are touched.
+        For pivots on springs it is twice that. The pads themselves report contact.
         """
         return self.bore_clearance * relative_travel_limit(self.pivots) * self._yielding
 
     def minimum_film(self, position: ArrayLike) -> Array:
         """Return the least gap at a pivot [m], shape (...), of journals at positions (2, ...) [m].
 
-        It is not positive where no tilt leaves a film; of pivots on springs that may give way it is larger by
-        the assembled clearance.
+        It is zero or negative where no tilt leaves a film. For pivots on springs it is larger by the
+        assembled clearance.
         """
         along = np.tensordot(directions(self.pivots)[:, :, 0], require_vector("position", position), 1)
         return np.asarray(self.bore_clearance * self._yielding - along.max(axis=0))
@@ -222,7 +224,7 @@ class TiltingPadBearing(Called, PadBearing):
         return len(self.pivots) * (1 if self.pivot_stiffness is None else 2)
 
     def moving(self, places: Array) -> Array:
-        """Return the states of pads in these places, all rates 0."""
+        """Return the states of pads in these positions, with all rates 0."""
         return places if self.pad_inertia is None else np.concatenate([places, np.zeros_like(places)])
 
     @property
@@ -268,11 +270,11 @@ class TiltingPadBearing(Called, PadBearing):
         return StaticTiltingPads(self)
 
     def on_frozen(self, film: Any) -> Any:
-        """Return the pads on a film around all of them, without tilt, whose oil keeps its temperature."""
+        """Return the pads on one film around all of them, without tilt, with a constant oil temperature."""
         return FrozenTiltingPads(self, film)
 
     def from_rest(self, position: ArrayLike, speed: float, temperature: float | None) -> TiltingPadBearing:
-        """Return this bearing with its pads as at rest under a journal there at first, as warm as there."""
+        """Return this bearing with initial tilts and temperature of a journal at rest at a position."""
         warm = self if temperature is None else self.at_temperature(temperature)
         pads = warm.at_rest().pad_states(position, speed)
         places = pads.tilts if self.pivot_stiffness is None else [*pads.tilts, *pads.pivot_deflections]
@@ -283,7 +285,7 @@ class TiltingPadBearing(Called, PadBearing):
         return self.at_rest().state(position, speed)
 
     def rest_linearization(self, position: ArrayLike, speed: float) -> Linearization:
-        """Return the loaded pads about their rest as states, over x, y, vx, vy; see `core.port`."""
+        """Return the derivatives with the tilts of loaded pads as states; see `core.port`."""
         return self.at_rest().matrices(position, speed).linearization()
 
     def losses(
@@ -307,7 +309,7 @@ class TiltingPadBearing(Called, PadBearing):
         return fed_temperature(heat, *self.cooled)
 
     def in_time(self, start_temperature: float | None = None) -> HeatedBearing:
-        """Raise InputError: the heat of tilting pads is known at rest only."""
+        """Raise InputError: the heat balance of tilting pads is modeled at rest only."""
         raise InputError(
             "temperature must be stated for tilting pads in time, got None: bearing.at_temperature(T) has one"
         )
@@ -345,8 +347,8 @@ class TiltingPadBearing(Called, PadBearing):
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this bearing; None if its film is no map.
 
-        Nor has a subclass. Its parameters are the dimensions, with the clearance of the pads, and the
-        viscosity; radius and length are fixed.
+        A subclass has no kernel either. The parameters of the kernel are the dimensions, with the clearance
+        of the pads, and the viscosity; radius and length are fixed.
         """
         if type(self) is not TiltingPadBearing or not isinstance(self.film, PadMapFilm) or self.is_warming:
             return None

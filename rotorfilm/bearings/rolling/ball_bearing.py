@@ -78,21 +78,22 @@ class RollingMaterial:
 class Waviness:
     """One wave of the races of one ring: amplitude cos(lobes (angle - angle of the ring) + phase).
 
-    With Z balls, lobes of m Z move the shaft along itself and change its stiffness, those of m Z + 1 and
-    m Z - 1 move it across.
+    With Z balls, m Z lobes move the shaft axially and change its stiffness; m Z + 1 and m Z - 1 lobes move it
+    radially.
 
     Parameters
     ----------
     inner : bool
         Whether it is on the inner ring, which turns, or on the outer one, which stands.
     lobes : int
-        Around the circumference.
+        Number of waves around the circumference.
     radial_amplitude : float [m]
-        Added radially to the distance of the groove centers: positive where it takes clearance.
+        Radial amplitude, added to the distance of the groove centers: positive where it reduces the
+        clearance.
     axial_amplitude : float [m]
-        The same along the thrust that the row carries.
+        Axial amplitude, along the thrust that the row carries.
     phase : float [rad]
-        At the angle of the ring, from +x.
+        Phase at the angle of the ring, from +x.
 
     Raises
     ------
@@ -126,20 +127,20 @@ class BallBearing(BallElement):
 
     Give the radial internal clearance of a deep groove bearing, whose rings face each other at z = 0, or the
     contact angle of an angular contact bearing, whose balls just touch at z = 0 and which carries thrust
-    along +z. Under a rotor the shaft moves along x and y; the tilts are held, and z is held or gives way to
-    an axial load. `wrench`, `stiffness` and `rest` know all five degrees of freedom.
+    along +z. Under a rotor the shaft moves along x and y only. Its tilts are fixed, and z is fixed or follows
+    from an axial load. `wrench`, `stiffness` and `rest` use all five degrees of freedom.
 
     Parameters
     ----------
     balls : int
         Number of balls.
     ball_diameter, pitch_diameter : float [m]
-        Of a ball, and of the circle on which their centers lie.
+        Diameter of a ball, and of the circle on which the ball centers lie.
     internal_clearance : float or None [m]
-        Radial internal clearance as catalogs have it (ISO 5753): the whole way of one ring across the other.
-        Negative for a tight fit.
+        Radial internal clearance as in catalogs (ISO 5753): the whole radial travel of one ring in the other.
+        Negative for a preload by a tight fit.
     contact_angle : float or None [rad]
-        Of the unloaded balls, in place of the clearance.
+        Contact angle of the unloaded balls, in place of the clearance.
     inner_conformity, outer_conformity : float [1]
         Radius of the groove over the diameter of the ball.
     ball_material, ring_material : RollingMaterial
@@ -147,21 +148,22 @@ class BallBearing(BallElement):
     growth : float [m]
         Radial growth of the inner ring against the outer one, by fits, heat and rotation.
     films : (float, float) [m]
-        Oil films of the inner and the outer contact, as of `ball_films`: the contacts carry K (d + film)^1.5.
+        Oil film thickness of the inner and the outer contact, as from `ball_films`: the contacts carry K (d +
+        film)^1.5.
     law : BallLaw
-        `RunningBalls()`, which friction holds, `RaceControl()` or, for low speeds, `StaticBalls()`.
+        `RunningBalls()` (friction at both races), `RaceControl()` or, for low speeds, `StaticBalls()`.
     axial_displacement : float [m]
         z of the shaft, where there is no `axial_load`.
     axial_load : float or None [N]
-        External force on the shaft along z, to which z gives way.
+        External force on the shaft along z, which then determines z.
     tilt : (float, float) [rad]
-        Of the shaft about +x and +y.
+        Tilt of the shaft about +x and +y.
     cage_angle : float [rad]
         Where the first ball is, from +x towards +y.
     damping : float [N s/m]
-        Viscous damping beside the balls along x and y, as measured or assumed; dry contacts have none.
+        Viscous damping in parallel with the balls along x and y, measured or assumed; dry contacts have none.
     waviness : tuple of Waviness
-        Waves of the races; of the inner one at the angle 0 of the shaft, where that is not known.
+        Waviness of the races. Waves of the inner race are at the shaft angle 0 where the angle is not known.
 
     Raises
     ------
@@ -264,7 +266,7 @@ class BallBearing(BallElement):
 
     @property
     def separates(self) -> bool:
-        """Whether this is an angular contact bearing, whose rings come apart under a thrust along -z."""
+        """Whether this is an angular contact bearing, whose rings separate under a thrust along -z."""
         return bool(self.contact_angle)
 
     @property
@@ -350,21 +352,21 @@ class BallBearing(BallElement):
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class BearingPair(BallElement):
-    """Two equal ball bearings on one shaft, preloaded against each other or in line: a Reaction as one is.
+    """A pair of equal ball bearings on one shaft, preloaded against each other or in tandem: a Reaction.
 
     `back_to_back`, `face_to_face` and `tandem` make the usual three. Displacements and moments are those of
-    the shaft half-way between the rows. What the clamping has brought together stays so, and the preload
-    changes with speed and growth: `running_preload` tells it.
+    the shaft half-way between the rows. The axial approach by clamping stays constant, so the preload changes
+    with speed and thermal growth: `running_preload` returns it.
 
     Parameters
     ----------
     bearing : BallBearing
-        Each of the two; how its shaft is held, and its damping, do not count.
+        One of the two bearings; its damping and its axial settings are not used.
     distance : float [m]
-        Of the rows along the shaft, spacers included.
+        Distance of the rows along the shaft, spacers included.
     directions : (int, int)
-        1 or -1: along z, of the thrust on the shaft that the first row, at -distance/2, and the second one
-        carry.
+        Direction along z (1 or -1) of the thrust on the shaft that each row carries: first the row at
+        -distance/2, then the other.
     preload : float or None [N]
         Axial force with which the pair was clamped together, at rest, dry and without growth.
     spacer_offset : float or None [m]
@@ -372,11 +374,11 @@ class BearingPair(BallElement):
     axial_displacement : float [m]
         z of the shaft, where there is no `axial_load`.
     axial_load : float or None [N]
-        External force on the shaft along z, to which z gives way.
+        External force on the shaft along z, which then determines z.
     tilt : (float, float) [rad]
-        Of the shaft about +x and +y.
+        Tilt of the shaft about +x and +y.
     damping : float [N s/m]
-        Viscous damping beside the balls along x and y.
+        Viscous damping in parallel with the balls along x and y.
 
     Raises
     ------
@@ -462,7 +464,7 @@ class BearingPair(BallElement):
         return rows
 
     def running_preload(self, speed: float = 0.0) -> float:
-        """Return the axial force [N] with which the rows press each other, with nothing else on the shaft.
+        """Return the preload at speed [N]: the axial force between the rows without an external load.
 
         Parameters
         ----------
@@ -479,7 +481,7 @@ _DIRECTIONS = {(1, -1), (-1, 1), (1, 1), (-1, -1)}
 def back_to_back(
     bearing: BallBearing, *, distance: float, preload: float | None = None, spacer_offset: float | None = None
 ) -> BearingPair:
-    """Return a pair whose lines of contact meet the shaft outside of it (O arrangement); stiff against tilts.
+    """Return a pair in O arrangement, whose lines of contact diverge towards the shaft; stiff against tilts.
 
     Parameters
     ----------
@@ -487,7 +489,7 @@ def back_to_back(
     distance : float [m]
     preload : float [N], optional
     spacer_offset : float [m], optional
-        As of a `BearingPair`.
+        Spacer offset as for a `BearingPair`.
     """
     return BearingPair(
         bearing=bearing, distance=distance, directions=(1, -1), preload=preload, spacer_offset=spacer_offset
@@ -498,7 +500,7 @@ def back_to_back(
 def face_to_face(
     bearing: BallBearing, *, distance: float, preload: float | None = None, spacer_offset: float | None = None
 ) -> BearingPair:
-    """Return a pair whose lines of contact meet the shaft towards its middle (X arrangement).
+    """Return a pair in X arrangement, whose lines of contact converge towards the shaft.
 
     Parameters
     ----------
@@ -518,6 +520,6 @@ def tandem(bearing: BallBearing, *, distance: float, axial_load: float | None = 
     bearing : BallBearing
     distance : float [m]
     axial_load : float [N], optional
-        As of a `BearingPair`.
+        Axial load as for a `BearingPair`.
     """
     return BearingPair(bearing=bearing, distance=distance, directions=(1, 1), axial_load=axial_load)

@@ -190,7 +190,7 @@ class BallElement(KernelReaction, ABC):
         name, got : str
             The argument that is the load, and its value with the place and the speed.
         rest : callable
-            From a kernel with another law to the status of its rest.
+            Rest from a kernel with another law to the status of its rest.
         """
         law, held = self.running[0], RunningBalls().numbers
         if isinstance(law, RaceControl) and rest(self.kernel.with_law(held)) <= Status.OUTSIDE:
@@ -452,22 +452,24 @@ class BallLoads(Readable):
     ball_angle : ndarray, shape (balls,) [rad]
         Where the ball is, from +x towards +y.
     inner_load, outer_load : ndarray, shape (balls,) [N]
-        Of the contacts. A ball with the inner load 0 does not carry; inertia presses it on the outer race.
+        Inner load and outer load of the contacts. A ball with the inner load 0 does not carry; inertia
+        presses it on the outer race.
     inner_angle, outer_angle : ndarray, shape (balls,) [rad]
-        Contact angles; the inner one of a ball that does not touch is where it would.
+        Contact angles. For a ball that does not touch the inner race, the inner angle is that of first touch.
     inner_pressure, outer_pressure : ndarray, shape (balls,) [Pa]
-        Largest in the contacts.
+        Largest pressure in the contacts.
     centrifugal_force : ndarray, shape (balls,) [N]
         Outwards.
     gyroscopic_moment : ndarray, shape (balls,) [N m]
         Negative for positive contact angles.
     orbit_speed : ndarray, shape (balls,) [rad/s]
-        Of the ball about the shaft.
+        Orbit speed of the ball about the shaft.
     traction : ndarray, shape (balls,) [1]
-        Traction coefficient that the gyroscopic moment asks for, the larger of both contacts; a ball slides
-        beyond about 0.06 under `RaceControl`, and beyond 0.9 of its `traction_coefficient` otherwise.
+        Traction coefficient that the gyroscopic moment requires, the larger of both contacts. A ball slides
+        beyond about 0.06 with `RaceControl`, and beyond 0.9 of its `traction_coefficient` otherwise.
     slip_speed : ndarray, shape (balls,) [m/s]
-        Of the balls across the way that they roll, by the gyroscopic moment; 0 under `RaceControl`.
+        Slip speed of the balls across the rolling direction, due to the gyroscopic moment; 0 with
+        `RaceControl`.
     """
 
     ball_angle: Array
@@ -485,7 +487,7 @@ class BallLoads(Readable):
 
     @property
     def carrying(self) -> int:
-        """Number of balls that press on the inner ring."""
+        """Number of loaded balls."""
         return int((self.inner_load > 0.0).sum())
 
 
@@ -506,9 +508,9 @@ class BallEquilibrium(Readable):
     balls : BallLoads
         Each ball.
     residual : float [1]
-        What is left of force and moment, over the load.
+        Residual of force and moment, relative to the load.
     evaluations : int
-        Forces that were computed.
+        Number of force evaluations.
     """
 
     displacement: Array
@@ -528,15 +530,15 @@ class BallEquilibrium(Readable):
 class EllipticContact:
     """The dry elastic contact of a ball and a groove (Hertz 1881).
 
-    The longer half-axis a of the ellipse lies across the way that the ball rolls. Load and approach obey
+    The longer half-axis a of the ellipse lies across the rolling direction. Load and approach obey
     load = stiffness * approach^1.5.
 
     Parameters
     ----------
     rolling_radius : float [m]
-        Radius of the relative curvature along the way that the ball rolls, 1/rho_x; not above the other one.
+        Radius of the relative curvature along the rolling direction, 1/rho_x; not above `groove_radius`.
     groove_radius : float [m]
-        That across it, 1/rho_y: of a ball and its groove 1/(2/D - 1/r).
+        Radius of the relative curvature across it, 1/rho_y; for a ball in its groove 1/(2/D - 1/r).
     combined_modulus : float [Pa]
         E', 2/E' = the sum of (1 - nu^2)/E of both bodies.
 
@@ -638,9 +640,9 @@ Numbers = tuple[int, float, float]
 
 @dataclass(frozen=True, kw_only=True)
 class StaticBalls:
-    """Balls without inertia: Hertz's contacts in line. Their force has a potential.
+    """Balls without inertia: both Hertzian contacts of a ball are in line.
 
-    For low speeds; the force does not depend on the speed.
+    Use it for low speeds: the force does not depend on the speed, and it has a potential.
     """
 
     numbers: ClassVar[Numbers] = (0, 0.0, 0.0)
@@ -663,7 +665,7 @@ class RunningBalls:
     Each contact has the potential mu Q sqrt(v0^2 + slip^2 + (3/8 a E spin)^2). This is the limit surface of
     an ellipse (Goyal, Ruina and Papadopoulos, Wear 143, 1991) with v0 = slide_to_roll_ratio * orbit radius *
     speed/2 (the rolling speed of both races). The balance is smooth. With a small ratio it tends to race
-    control by the contact that resists spin more; where friction cannot hold the moment the ball slides.
+    control by the contact that resists spin more. Where friction cannot balance the moment, the ball slides.
 
     Parameters
     ----------
@@ -693,7 +695,7 @@ class RunningBalls:
 
     @property
     def parameters(self) -> tuple[tuple[str, str, float, str], ...]:
-        """Both numbers, as a simulator may set them."""
+        """Both numbers, as parameters of an FMU."""
         return (
             ("traction_coefficient", "1", self.traction_coefficient, "friction over load of a sliding ball"),
             ("slide_to_roll_ratio", "1", self.slide_to_roll_ratio, "at which friction is 0.71 of that"),
@@ -710,10 +712,10 @@ class RunningBalls:
 class RaceControl:
     """Balls with centrifugal force and gyroscopic moment by race control (Jones 1960, Harris 1971).
 
-    A ball rolls on both races without slip and spins on one of them only, which is said not to control it.
-    The friction that holds the gyroscopic moment acts at the outer race under outer control, and in equal
-    shares at both races otherwise. A lightly loaded fast ball has no such balance; its moment is then left
-    out, and its force jumps. `RunningBalls` has no jumps.
+    A ball rolls on both races without slip and spins on one of them only; the other one controls it. Friction
+    balances the gyroscopic moment at the outer race under outer control, and in equal shares at both races
+    otherwise. A lightly loaded fast ball has no such balance; its moment is then neglected, and its force
+    jumps. `RunningBalls` has no jumps.
 
     Parameters
     ----------

@@ -61,13 +61,13 @@ class RaceFilm:
     touch : EllipticContact
         The dry contact.
     load : float [N]
-        Of the ball.
+        Load of the ball.
     rolling_speed : float [m/s]
         Mean of the speeds of both surfaces, seen from the contact.
     viscosity : float [Pa s]
-        At ambient pressure and the temperature of the races.
+        Viscosity at ambient pressure and the temperature of the races.
     pressure_coefficient : float [1/Pa]
-        Of the viscosity, d ln mu/dp at ambient pressure.
+        Pressure coefficient of the viscosity, d ln mu/dp at ambient pressure.
 
     Raises
     ------
@@ -152,7 +152,7 @@ class RaceFilm:
         Warns
         -----
         ValidityWarning
-            If V or Q0 is outside of that.
+            If V or Q0 is outside of this range.
         """
         for name, value, (low, high) in (("V", self.V, SPEEDS), ("Q0", self.Q0, PRESSURES)):
             if not low <= value <= high:
@@ -180,7 +180,7 @@ class RaceFilm:
             That of the race by default.
         roelands : bool
             Whether the viscosity follows Roelands' law, with the same slope at ambient pressure, rather than
-            Barus' exponential, with which contacts of some GPa are beyond reach.
+            Barus' exponential law, which fails for contacts of some GPa.
         """
         return PointContact(
             V=self.V,
@@ -202,8 +202,8 @@ class RaceFilm:
     ) -> ContactLaw:
         """Return the reduced law of this film in SI, as `reduce_contact` makes it and keeps it on disk.
 
-        The film is solved on an ellipse of the given ellipticity, 4 by default, and its approaches are scaled
-        so that the dry stiffness is that of the race.
+        The film is solved on an ellipse of the given ellipticity, 4 by default. Its approaches are scaled so
+        that the dry stiffness is that of the race.
 
         Parameters
         ----------
@@ -238,13 +238,13 @@ def race_films(
     ----------
     bearing : BallBearing
     load : float [N]
-        Of the ball.
+        Load of the ball.
     speed : float [rad/s]
         Angular speed of the inner ring, not 0.
     viscosity : float [Pa s]
-        At ambient pressure and the temperature of the races.
+        Viscosity at ambient pressure and the temperature of the races.
     pressure_coefficient : float [1/Pa]
-        Of the viscosity, d ln mu/dp at ambient pressure.
+        Pressure coefficient of the viscosity, d ln mu/dp at ambient pressure.
 
     Raises
     ------
@@ -265,7 +265,7 @@ def ball_films(
 ) -> tuple[float, float]:
     """Return the central films of the inner and the outer contact [m], by Hamrock & Dowson (1977).
 
-    As `films` of the bearing they shift the static law: the oil hardly changes its slope.
+    Give them as `films` of the bearing: they shift the static law and hardly change its stiffness.
 
     Parameters
     ----------
@@ -303,18 +303,18 @@ def film_parameter(
 ) -> float:
     """Return lambda [1]: the smallest film thickness of all contacts under load over their roughness.
 
-    The minimum film is that of Hamrock & Dowson (1977). Above 3 the surfaces are taken to be apart, below 1
-    to touch.
+    The minimum film is that of Hamrock & Dowson (1977). Above 3 the surfaces are considered separated, below
+    1 in contact.
 
     Parameters
     ----------
     bearing : BallBearing
     balls : BallLoads
-        Its balls under load; of a pair those of both rows.
+        Balls under load; for a pair those of both rows.
     speed, viscosity, pressure_coefficient
         As of `ball_films`.
     roughness : float [m]
-        Of ball and race together, sqrt(Rq_1^2 + Rq_2^2).
+        Combined roughness of ball and race, sqrt(Rq_1^2 + Rq_2^2).
 
     Raises
     ------
@@ -373,20 +373,20 @@ TINY = 1e-300
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class LubricatedBalls:
-    """A ball bearing at one speed with the dynamics of its oil films: a Dynamic model in five degrees.
+    """A ball bearing at one speed with the dynamics of its oil films, in five degrees of freedom.
 
-    What the films add to the static bearing is driven by the approach of both grooves at each ball, less that
-    at rest, and acts along the ball's contact; a contact does not pull. Made by `lubricated_balls`.
+    The films add a force along the contact of each ball, driven by the approach of both grooves relative to
+    equilibrium. A contact does not pull. `lubricated_balls` makes this Dynamic model.
 
     Parameters
     ----------
     bearing : BallBearing or BearingPair
     rest : BallEquilibrium
-        About which the films are linear.
+        Equilibrium about which the films are linearized.
     A, B, C, D : ndarray
-        State space of one ball: what its films add to the force [N] over the approach of its grooves [m].
+        State space of one ball: from the approach of its grooves [m] to the added force of its films [N].
     shares : ndarray, shape (balls,) [1]
-        Factor of each ball on it: 1, except for the change of the contact stiffness by centrifugal force.
+        Factor of each ball: 1, except for the change of the contact stiffness by centrifugal force.
     damping_error : float [1]
         Largest error of its damping, over the largest damping.
 
@@ -443,11 +443,11 @@ class LubricatedBalls:
 
     @property
     def initial_state(self) -> Array:
-        """Films that have long rested."""
+        """Steady state of the films."""
         return np.zeros(len(self.states))
 
     def resting(self, u: ArrayLike) -> Array:
-        """Return the state of films that have long rested at a motion u (5,) of the shaft."""
+        """Return the steady state of the films for a displacement u (5,) of the shaft."""
         drive = self._geometry(u)[1]
         return np.asarray(-np.outer(drive, np.linalg.solve(self.A, self.B[:, 0])).ravel())
 
@@ -479,7 +479,7 @@ class LubricatedBalls:
         return Linearization(A, B, C, D)
 
     def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return what changes sign where a ball takes or leaves its load, and where its force vanishes."""
+        """Return the switching functions: a ball becomes loaded or unloaded, or its force vanishes."""
         at, (depth, *_) = self._balls(x, u), self._geometry(u)
         force = self.bearing.nominal_force
         return np.concatenate([depth / self.bearing.clearance, (at.load + at.film) / force])
@@ -559,24 +559,25 @@ def lubricated_balls(
     order: int = 5,
     grid: ContactGrid = USUAL_GRID,
 ) -> LubricatedBalls:
-    """Return the bearing with the dynamics of its films about a rest, both contacts of each ball in series.
+    """Return the bearing with the dynamics of its oil films, linearized about an equilibrium.
 
-    Solves the films of the most loaded ball at both races, on an ellipse of the ellipticity 4; that takes
-    some seconds and is kept on disk. The others have the same films: damping hardly depends on the load.
+    Both contacts of each ball are in series. The films of the most loaded ball are solved at both races, with
+    the ellipticity 4; this takes some seconds and is kept on disk. All balls get these films, since the
+    damping hardly depends on the load.
 
     Parameters
     ----------
     bearing : BallBearing or BearingPair
     rest : BallEquilibrium
-        From `bearing.rest(load, speed)`, at a speed other than 0.
+        Rest from `bearing.rest(load, speed)`, at a speed other than 0.
     viscosity : float [Pa s]
-        At ambient pressure and the temperature of the races.
+        Viscosity at ambient pressure and the temperature of the races.
     pressure_coefficient : float [1/Pa]
-        Of the viscosity, d ln mu/dp at ambient pressure.
+        Pressure coefficient of the viscosity, d ln mu/dp at ambient pressure.
     order : int
         States of each ball.
     grid : ContactGrid
-        On which the films are solved.
+        Grid on which the films are solved.
 
     Raises
     ------
@@ -602,16 +603,16 @@ def lubricated_balls(
 
 @dataclass(frozen=True, kw_only=True)
 class FilmDamping(Readable):
-    """Damping of slow motions of a shaft in its ball bearings.
+    """Damping of slow motion of a shaft by the oil films of its ball bearings.
 
     Attributes
     ----------
     damping : ndarray, shape (5, 5) [N s/m]
         -d(force, moment)/d(rate of x, y, z, tilt_x, tilt_y), in [N s/m], [N s], [N m s/rad]; symmetric.
     planar : ndarray, shape (2, 2) [N s/m]
-        Over x and y: z gives way where the bearing has an axial load, all else is held.
+        Over x and y: z moves freely where the bearing has an axial load; tilts are held.
     ball_damping : ndarray, shape (balls,) [N s/m]
-        Of each ball along its contacts in series; 0 without load.
+        Damping of each ball with both contacts in series; 0 without load.
     damping_time : ndarray, shape (5,) [s]
         c/k: diagonal of the damping over that of the stiffness.
     films : (RaceFilm, RaceFilm)
@@ -634,23 +635,24 @@ def film_damping(
     pressure_coefficient: float,
     structural_time: float = 0.0,
 ) -> FilmDamping:
-    """Return the damping of the oil films about a rest, sum of B' c n n' B over contacts.
+    """Return the damping of the oil films about an equilibrium, the sum of B' c n n' B over the contacts.
 
-    Each contact damps by `RaceFilm.slow_damping`, nearly the same at every load; a ball passes its motion to
-    both contacts by their stiffness, centrifugal force and gyroscopic moment held.
+    The damping of each contact is `RaceFilm.slow_damping`, which hardly depends on the load. A ball
+    distributes its motion to both contacts by their stiffness, with centrifugal force and gyroscopic moment
+    held.
 
     Parameters
     ----------
     bearing : BallBearing or BearingPair
     rest : BallEquilibrium
-        From `bearing.rest(load, speed)`, at a speed other than 0.
+        Rest from `bearing.rest(load, speed)`, at a speed other than 0.
     viscosity : float [Pa s]
-        At ambient pressure and the temperature of the races.
+        Viscosity at ambient pressure and the temperature of the races.
     pressure_coefficient : float [1/Pa]
-        Of the viscosity, d ln mu/dp at ambient pressure.
+        Pressure coefficient of the viscosity, d ln mu/dp at ambient pressure.
     structural_time : float [s]
-        c/k of everything else, joints and cage, as measured or assumed: this times the stiffness is added,
-        none by default. A loss factor eta at an angular frequency omega is eta/omega.
+        c/k of all other damping (joints, cage), measured or assumed: the damping gets this times the
+        stiffness, none by default. A loss factor eta at an angular frequency omega is eta/omega.
 
     Raises
     ------

@@ -30,18 +30,18 @@ CAGE, SHAFT = DEGREES + 1, DEGREES + 2
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class MomentCarryingBalls(StaticReaction):
-    """A ball bearing, or a pair, that holds a shaft in place and against tilt: a Reaction.
+    """A ball bearing, or a pair, that also resists the tilt of the shaft: a Reaction.
 
     With x, y, tilt_x and tilt_y it is for shafts without axial motion: z is given, or follows from the axial
-    load of the bearing at every place. It goes into a station with `feels_tilt=True` of a `ShaftRotor`, with
-    z of one that has `axial=True` too, for rests, modes, responses and `simulate`.
+    load of the bearing. It needs a station with `feels_tilt=True` of a `ShaftRotor`; with z the rotor also
+    needs `axial=True`. Equilibria, modes, responses and `simulate` take it.
 
     Parameters
     ----------
     bearing : BallBearing or BearingPair
-        Its `tilt`, and with z its `axial_displacement`, are those of the shaft against the housing where the
-        rotor is straight: a misalignment; those of motions that are no freedoms are held. Its `damping` acts
-        along x and y only.
+        The ball bearing. Its `tilt`, and with z its `axial_displacement`, are the misalignment: the position
+        of a straight shaft against the housing. Motions that are not among the freedoms are held. Its
+        `damping` acts along x and y only.
     freedoms : tuple of str
         x, y and others of `BALL_FREEDOMS`. With z the bearing has no `axial_load`: the shaft has it.
 
@@ -80,7 +80,7 @@ class MomentCarryingBalls(StaticReaction):
 
     @property
     def clearance(self) -> float:
-        """Radial way [m] to a contact pressure of 4200 MPa, that of the bearing."""
+        """Radial displacement [m] at a contact pressure of 4200 MPa, that of the bearing."""
         return self.bearing.clearance
 
     @property
@@ -94,7 +94,7 @@ class MomentCarryingBalls(StaticReaction):
         return float(self.bearing.rows[0, ROW.index("arm")])
 
     def force_noise(self, speed: float) -> float:
-        """Return what roundoff of places leaves of the force [N], that of the bearing."""
+        """Return the roundoff error of the force [N], that of the bearing."""
         return self.bearing.force_noise(speed)
 
     def require_film(self, position: Array) -> None:
@@ -112,9 +112,9 @@ class MomentCarryingBalls(StaticReaction):
         return self._each(lambda at: self._by_input(at)[0], (n, 2 * n + 1), position, speed)
 
     def rest_place(self, load: Sequence[float], speed: float) -> Array | None:
-        """Return where the shaft rests under forces [N] and moments [N m] of its freedoms, shape (n,).
+        """Return the equilibrium under forces [N] and moments [N m] along its freedoms, shape (n,).
 
-        None where no rest was found. With z among the freedoms as `BallBearing.rest`.
+        It is None where no equilibrium was found. With z among the freedoms it is like `BallBearing.rest`.
 
         Raises
         ------
@@ -133,7 +133,7 @@ class MomentCarryingBalls(StaticReaction):
         Parameters
         ----------
         place : array_like, shape (n,) [m]
-            Of the freedoms: x, y [m], tilt_x, tilt_y [rad] of the shaft, tilts about +x and +y.
+            Place of the freedoms: x, y [m], tilt_x, tilt_y [rad] of the shaft, tilts about +x and +y.
         speed : float [rad/s]
             Angular speed about +z.
 
@@ -207,19 +207,20 @@ class MomentCarryingBalls(StaticReaction):
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class VariableComplianceBalls(MomentCarryingBalls):
-    """A ball bearing, or a pair, with the angles of cage and shaft as states: a Reaction and a Dynamic.
+    """A ball bearing, or a pair, whose states are the angles of cage and shaft: variable compliance.
 
-    The cage turns with a fixed share of the speed; waves of the inner ring turn with the shaft. The force
-    swings with the ball-pass frequency, balls * cage_ratio * speed, and is smooth between two of its events,
-    at which a ball comes under load or leaves it. With all freedoms it is a kernel of the C library, and an
-    FMU without Python.
+    The cage turns at a fixed share of the shaft speed, and waves of the inner ring turn with the shaft. The
+    force varies with the ball-pass frequency, balls * cage_ratio * speed. It is smooth between events, at
+    which a ball becomes loaded or unloaded. With all freedoms it has a kernel in the C library, and an FMU
+    that needs no Python.
 
     Parameters
     ----------
     bearing : BallBearing or BearingPair
-        Its cage angle is that at t = 0.
+        The ball bearing; its cage angle is that at t = 0.
     freedoms : tuple of str
-        As of `MomentCarryingBalls`; x and y by default, with the tilts and the axial place or load given.
+        Freedoms as of `MomentCarryingBalls`; x and y by default, with the tilts and the axial place or load
+        given.
     cage_ratio : float or None [1]
         Speed of the cage over that of the shaft, as `bearing.rest(load, speed)` tells it; by default
         (1 - D cos(angle)/pitch_diameter)/2 at the free contact angle.
@@ -253,13 +254,13 @@ class VariableComplianceBalls(MomentCarryingBalls):
 
     @property
     def states(self) -> tuple[Signal, ...]:
-        """How far cage and shaft have turned."""
+        """Signals of the angles by which cage and shaft have turned."""
         turned = "by which the {} has turned".format
         return signals_of(*((f"{part}_angle", "rad", 1.0, turned(part)) for part in ("cage", "shaft")))
 
     @property
     def initial_state(self) -> Array:
-        """Nothing has turned."""
+        """Zero angles."""
         return np.zeros(2)
 
     def rest_state(self, position: ArrayLike, speed: float) -> Array:

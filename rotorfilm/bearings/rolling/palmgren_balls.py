@@ -23,8 +23,9 @@ REACH = 0.007
 class PalmgrenBalls(StaticReaction):
     """A ball bearing without clearance in Palmgren's closed form, force = -c |q|^(1/2) q.
 
-    q is the way of the shaft; c is such that the stiffness along a load is `palmgren_stiffness`. Across it
-    is 2/3 of that, and the angle of the cage does not count. Steel; no thrust, preload or inertia of balls.
+    q is the displacement of the shaft, and c follows from `palmgren_stiffness`, the stiffness along the load.
+    The stiffness across the load is 2/3 of it, and the cage angle has no effect. Balls are of steel; thrust,
+    preload and ball inertia are not included.
 
     Parameters
     ----------
@@ -70,7 +71,7 @@ class PalmgrenBalls(StaticReaction):
 
     @property
     def clearance(self) -> float:
-        """Radial way [m] to about 4200 MPa, 0.007 of the ball diameter."""
+        """Radial displacement [m] at a pressure of about 4200 MPa, 0.007 of the ball diameter."""
         return REACH * self.ball_diameter
 
     @property
@@ -151,7 +152,7 @@ def load_integrals(extent: float) -> LoadIntegrals:
     Parameters
     ----------
     extent : float [1]
-        Load distribution factor epsilon: share of the diameter that is loaded; above 1 all balls are.
+        Load distribution factor epsilon: share of the diameter that is loaded; above 1 all balls are loaded.
 
     Raises
     ------
@@ -173,12 +174,12 @@ def load_integrals(extent: float) -> LoadIntegrals:
 def stribeck_load(*, load: float, balls: int, contact_angle: float = 0.0) -> float:
     """Return the load of the most loaded ball [N] of a bearing without clearance, 4.37 W/(Z cos alpha).
 
-    Stribeck (1907). The constant is 1/J_r(1/2), the limit of many balls.
+    The formula is that of Stribeck (1907). The constant is 1/J_r(1/2), the limit for many balls.
 
     Parameters
     ----------
     load : float [N]
-        Radial.
+        Radial load.
     balls : int
         Number of balls.
     contact_angle : float [rad]
@@ -197,13 +198,13 @@ def stribeck_load(*, load: float, balls: int, contact_angle: float = 0.0) -> flo
 def palmgren_stiffness(*, load: float, balls: int, ball_diameter: float, contact_angle: float = 0.0) -> float:
     """Return the stiffness along a radial load [N/m], 13e6 Z^(2/3) D^(1/3) W^(1/3) cos(alpha)^(5/3) in SI.
 
-    After Palmgren, for steel and no clearance; across the load it is 2/3 of this, on the average over the
-    angle of the cage.
+    This is Palmgren's formula, for steel and no clearance. Across the load the stiffness is 2/3 of this,
+    averaged over the cage angle.
 
     Parameters
     ----------
     load : float [N]
-        Radial.
+        Radial load.
     balls : int
         Number of balls.
     ball_diameter : float [m]

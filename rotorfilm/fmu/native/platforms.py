@@ -36,7 +36,7 @@ class Target(NamedTuple):
     folder2 : str
         The same in FMI 2.0; equal for the two halves of a universal file.
     suffix : str
-        Of the library.
+        Suffix of the library.
     triple : str
         What zig calls it.
     """
