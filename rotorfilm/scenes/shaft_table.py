@@ -222,8 +222,9 @@ class BearingTable:
             return bearing
         if self.tilt is TiltLevel.FULL and isinstance(bearing.film, MapFilm):
             bearing = replace(bearing, film=ReynoldsFilm())
-        bush = {"bush_offset": self.bush_offset, "bush_tilt": self.bush_tilt}
-        return MomentCarryingJournal(bearing=bearing, level=self.tilt, **bush)
+        return MomentCarryingJournal(
+            bearing=bearing, level=self.tilt, bush_offset=self.bush_offset, bush_tilt=self.bush_tilt
+        )
 
     def station(self) -> rotors.Station:
         """Return where it is."""

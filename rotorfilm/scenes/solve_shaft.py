@@ -12,8 +12,7 @@ import numpy as np
 
 from .. import analysis
 from ..analysis.closed_loop import driven_by_unbalance
-from ..bearings.journal import JournalBearing, MomentCarryingJournal
-from ..bearings.journal.moment_carrying_journal import USUAL
+from ..bearings.journal import USUAL_CORRECTION, JournalBearing, MomentCarryingJournal
 from ..bearings.linear import LinearBearing
 from ..bearings.seal import AnnularSeal
 from ..core.answers import ISOTHERMAL
@@ -308,7 +307,7 @@ def tilt_remarks(
     except RotorfilmError:
         return ()  # the answer says what is wrong
     shift = 0.5 * plain.length * float(np.linalg.norm(tilts @ at.displacement))
-    correction = USUAL * (shift / film) ** 2
+    correction = USUAL_CORRECTION * (shift / film) ** 2
     numbers = {"shift": shift / plain.clearance, "share": shift / film, "correction": correction}
     return messages(remarks_of("tilt"), {**numbers, "twice": 2.0 * correction})
 
