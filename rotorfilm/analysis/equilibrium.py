@@ -315,7 +315,7 @@ def _why_not(load: Array, target: StaticTarget, best: StaticPoint) -> str:
         )
     given = f"got load {load.tolist()} N with |load| = {math.hypot(*load):.6g} N"
     if not math.isfinite(best.norm):
-        return f"speed must make the film carry load: at speed {speed!r} rad/s it carries none, {given}"
+        return f"speed must let the film carry the load: at speed {speed!r} rad/s it carries none, {given}"
     if best.s == LARGEST_S and best.ratio < 0.0:
         limit = math.exp(best.ratio) * math.hypot(*load)
         return (

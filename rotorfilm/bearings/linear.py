@@ -258,7 +258,7 @@ def within_table(speed: ArrayLike, known: Array) -> Array:
     omega = require_finite("speed", speed)
     if np.any(omega < known[0]) or np.any(omega > known[-1]):
         raise InputError(
-            f"speed must be within the table, {known[0]:.6g} to {known[-1]:.6g} rad/s, got {speed!r}"
+            f"speed must be within the table, {known[0]:.6g} to {known[-1]:.6g} rad/s, got {omega.tolist()}"
         )
     return omega
 

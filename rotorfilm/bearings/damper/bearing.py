@@ -236,8 +236,9 @@ class SqueezeFilmDamper(InertialModel):
         require_kind("seals", self.seals, EndSeal | None, "an EndSeal or None")
         require_non_negative("density", self.density)
         for name in ("seals", "density"):
-            if getattr(self, name) and (self.cage is not None or self.feed is not None):
-                raise InputError(f"{name} must be left out beside a porous cage or a feed, got {self!r}")
+            given = getattr(self, name)
+            if given and (self.cage is not None or self.feed is not None):
+                raise InputError(f"{name} must be left out with a porous cage or a feed, got {given!r}")
         if self.density:
             _ = self.film_inertia
         _ = self.bound_film

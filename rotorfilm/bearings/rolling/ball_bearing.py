@@ -205,8 +205,8 @@ class BallBearing(BallElement):
         room = self.pitch_diameter * math.sin(math.pi / self.balls)
         if self.ball_diameter > room:
             raise InputError(
-                f"balls must find room on the pitch circle, {room:.4g} m each, "
-                f"got {self.balls} of {self.ball_diameter!r} m"
+                f"balls must find room on the pitch circle, which leaves {room:.4g} m for each, "
+                f"got {self.balls} balls of {self.ball_diameter!r} m"
             )
         for name in ("inner_conformity", "outer_conformity"):
             if not 0.5 < require_number(name, getattr(self, name)) < 0.75:
@@ -231,7 +231,7 @@ class BallBearing(BallElement):
     def _require_one_of_both(self) -> None:
         given = {"internal_clearance": self.internal_clearance, "contact_angle": self.contact_angle}
         if sum(value is not None for value in given.values()) != 1:
-            raise InputError(f"internal_clearance or contact_angle must be given, one of both, got {given}")
+            raise InputError(f"internal_clearance or contact_angle must be given, and not both, got {given}")
         if self.contact_angle is not None and not 0.0 <= require_number(
             "contact_angle", self.contact_angle
         ) < math.radians(75.0):
