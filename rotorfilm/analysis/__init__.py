@@ -23,6 +23,7 @@ if TYPE_CHECKING:
         axial_modes as axial_modes,
         axial_response as axial_response,
         axial_statics as axial_statics,
+        collar_response as collar_response,
         stress_stiffened as stress_stiffened,
         torsional_modes as torsional_modes,
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,13 +20,15 @@ from ..core.errors import (
 )
 from ..core.inputs import arguments, quantities
 from ..core.model import Array
-from ..core.port import MOST_LEFT
+from ..core.port import MOST_LEFT, freedoms_of, small_motion
 from ..core.readable import Readable
-from ..rotors import Coupling, LayeredElement, ShaftRotor
+from ..rotors import Coupling, LayeredElement, ShaftRotor, SkewedCollar
+from ..rotors.mounted import Bearings
 from ..rotors.rod_elements import Chain, axial_chain, torsional_chain
 from ..rotors.shaft_elements import ShaftPiece
-from ..rotors.structure import dense_matrix
-from .closed_loop import checked_speeds, frequency_response
+from ..rotors.structure import dense_matrix, freedom_rows
+from .closed_loop import checked_speeds, frequency_response, synchronous_response
+from .rotor_equilibrium import rotor_equilibrium
 from .threads import one_blas_thread
 
 if TYPE_CHECKING:
@@ -185,6 +187,58 @@ def axial_response(
     load[node] = 1.0
     found = [np.linalg.solve(stiffness - w**2 * mass + 1j * w * damping, load)[:count, None] for w in grid]
     return frequency_response(found, grid, ["force_z"], [f"z_{k}" for k in range(count)], "axial_response")
+
+
+@one_blas_thread
+@arguments
+def collar_response(
+    collar: SkewedCollar, bearings: Bearings, speeds: ArrayLike
+) -> control.FrequencyResponseData:
+    """Return the synchronous response of a rotor to a thrust collar that is out of square.
+
+    Unbalances are left out: the sum with `unbalance_response` is the whole response.
+
+    Parameters
+    ----------
+    collar : SkewedCollar
+        With its rotor.
+    bearings : mapping of str to Reaction
+        By the name of the station; each is linearized at the equilibrium of every speed.
+    speeds : array_like, shape (n,) [rad/s]
+        Angular speeds, positive and rising.
+
+    Returns
+    -------
+    control.FrequencyResponseData
+        Input `skew` [1]: that of the collar. Outputs as of `unbalance_response`, of the shaft without the
+        skew; the forces at its station are those of this motion alone.
+
+    Raises
+    ------
+    InputError
+        If nothing at the station feels the tilt, or an argument breaks its rule.
+    EquilibriumError
+        If there is no equilibrium at one of the speeds.
+    """
+    bearing = bearings.get(collar.station)
+    felt = () if bearing is None else freedoms_of(bearing)
+    if bearing is None or not {"tilt_x", "tilt_y"} <= {*felt}:
+        raise InputError(
+            f"bearings must have one that feels tilts at {collar.station!r}, got {list(bearings)}"
+        )
+    columns = [felt.index(name) for name in ("tilt_x", "tilt_y")]
+    turning = collar.skew * np.exp(1j * collar.skew_angle) * np.array([[1.0], [-1.0j]])
+
+    def moments(speed: float) -> np.ndarray:
+        at = rotor_equilibrium(collar.rotor, bearings, speed)
+        temperature = at.temperatures.get(collar.station)
+        film: Any = bearing
+        warm = film if temperature is None else film.at_temperature(temperature)
+        stiffness, _ = small_motion(warm, at.coefficients[collar.station].position, speed)(1j * speed)
+        return -stiffness[:, columns] @ turning
+
+    loads = freedom_rows(collar.rotor.assembly, collar.station, felt).T
+    return synchronous_response(collar.rotor, bearings, speeds, loads, moments, "skew")
 
 
 def require_shaft_node(name: str, node: int, rotor: ShaftRotor) -> None:

@@ -42,7 +42,7 @@ class ClearanceCheck(Drawable):
         A_vl, peak-to-peak, at the maximum speed.
     scale_factor : float [1]
         S_cc, by which the response is scaled.
-    names : tuple of str
+    names : tuple of str, shape (n_places,)
         The places.
     vibration : ndarray, shape (n_places,) [m]
         Largest scaled amplitude of each, peak-to-peak along the longer axis of its orbit.

@@ -52,16 +52,35 @@ class BearingLosses(Readable):
 
 
 def by_freedom(items: Iterable[Item], freedoms: Sequence[str]) -> Iterator[Item]:
-    """Yield items, those of other motions than x and y entry by entry, each with its unit."""
+    """Yield items, those of other motions than x and y entry by entry, each with its unit.
+
+    An entry of a matrix that is round-off beside its diagonal is 0; what only x and y have is left out
+    without them.
+    """
     for item in items:
+        if item.name in _PLANAR_ONLY and not {*PLANAR} <= {*freedoms}:
+            continue
         units = _UNITS.get(item.name)
         if units is None or tuple(freedoms) == PLANAR:
             yield item
             continue
-        for place in np.ndindex(np.shape(item.value)):
+        value = _without_noise(np.asarray(item.value))
+        for place in np.ndindex(value.shape):
             named = [freedoms[k] for k in place]
             unit = units[tuple(FREEDOMS[name].turns for name in named)]
-            yield Item("_".join([item.name, *named]), np.asarray(item.value)[place].item(), unit, ())
+            yield Item("_".join([item.name, *named]), value[place].item(), unit, ())
+
+
+def _without_noise(value: Array) -> Array:
+    """Return a matrix with 0 where an entry is round-off beside its diagonal; a vector as it is."""
+    if value.ndim != 2:
+        return value
+    sizes = np.sqrt(np.abs(np.diag(value)))
+    return np.where(np.abs(value) < NOISE * np.outer(sizes, sizes), 0.0, value)
+
+
+NOISE, _PLANAR_ONLY = 1e-12, frozenset({"eccentricity_ratio", "attitude_angle"})
+"""Share of the diagonal that is round-off in a printed matrix, and what is said with x and y alone."""
 
 
 _UNITS: Mapping[str, Mapping[Any, str]] = {

@@ -44,6 +44,7 @@ if TYPE_CHECKING:
         cowper_coefficient,
     )
     from .shaft_rotor import ShaftRotor as ShaftRotor
+    from .skewed_collar import SkewedCollar
     from .steady import SteadyRotor as SteadyRotor
     from .structure import FlexibleRotor as FlexibleRotor, require_flexible
 else:

@@ -30,7 +30,7 @@ WEDGE = 50.0
 MOST_PADS = 64
 """Most pads of one side."""
 
-OF_PLACE = ("gap", "side", "start", "extrapolated")
+OF_PLACE = ("gap", "side", "start", "extrapolated", "tabulated")
 """Fields of the pads that the scene of a bearing alone does not need."""
 
 PIVOTED = ("pivot_width", "line_pivot")

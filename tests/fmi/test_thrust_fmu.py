@@ -1,6 +1,7 @@
 """Native FMUs of thrust bearings: force, torque, tilts and derivatives are those of Python."""
 
 import math
+from dataclasses import replace
 
 import fmpy
 import numpy as np
@@ -18,6 +19,10 @@ RING = ThrustBearing(pads=1, pad_arc=2.0 * math.pi, continuous=True, **SIZES)
 TILTING = TiltingThrustBearing(pads=4, pad_arc=math.radians(60.0), **SIZES)
 LINE = TiltingThrustBearing(pads=3, pad_arc=math.radians(60.0), line_pivot=True, extrapolated=False, **SIZES)
 MODELS = {"fixed": FIXED, "back": BACK, "ring": RING, "tilting": TILTING, "line": LINE}
+MODELS |= {
+    "fixed table": replace(FIXED, side=-1, extrapolated=False, tabulated=True),
+    "tilting table": replace(TILTING, tabulated=True),
+}
 
 INPUTS = ("z", "tilt_x", "tilt_y", "vz", "tilt_rate_x", "tilt_rate_y", "speed")
 OUTPUTS = ("force_z", "moment_x", "moment_y", "torque")
@@ -45,7 +50,7 @@ def test_forces_tilts_and_derivatives_are_those_of_python(name, version, exchang
 
 
 @versions
-@pytest.mark.parametrize("name", ["fixed", "tilting"])
+@pytest.mark.parametrize("name", ["fixed", "tilting", "fixed table", "tilting table"])
 def test_a_thrust_bearing_is_native_and_passes_all_checks(name, version, tmp_path):
     start = {"speed": 300.0, "tilt_x": 1e-5}
     path = export_fmu(MODELS[name], tmp_path / "thrust.fmu", version, start=start, stop_time=1e-3)

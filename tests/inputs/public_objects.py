@@ -198,6 +198,19 @@ MADE = [
     ),
     rf.analysis.Impeller(power=2e5, diameter=0.4, width=0.012, suction_density=5.0, discharge_density=8.0),
     rf.analysis.AxialStage(power=5e5, diameter=0.6, height=0.08),
+    rf.rotors.SkewedCollar(
+        rotor=rf.RigidShaft(
+            mass=10.0,
+            diametral_inertia=0.1,
+            polar_inertia=0.2,
+            stations=(("", 0.0),),
+            speed=100.0,
+            feels_tilt=True,
+        ),
+        station="",
+        skew=1e-4,
+        skew_angle=0.3,
+    ),
     rf.analysis.AxialSpring(node=0, stiffness=1e8, damping=1e4),
     rf.analysis.TorsionalSpring(node=0, stiffness=1e5, damping=10.0),
     rf.OperatingPoint(t=1.0, x=(), u=(0.0,) * 5),
@@ -218,6 +231,7 @@ MADE = [
     rf.bearings.MomentCarryingJournal(
         bearing=dataclasses.replace(BEARING, film=rf.ReynoldsFilm(cells=(16, 4)))
     ),
+    rf.bearings.MomentCarryingJournal(bearing=BEARING, level=rf.bearings.TiltLevel.CLOSED_FORM),
     rf.ThrustBearing(
         inner_radius=0.025,
         outer_radius=0.05,

@@ -21,11 +21,11 @@ LARGEST = {
     "rotorfilm_bushes": 60_000,
     "rotorfilm_grids": 122_000,
     "rotorfilm_grid_systems": 144_000,
-    "rotorfilm_heat": 88_000,
+    "rotorfilm_heat": 110_000,
     "rotorfilm_pads": 74_000,
     "rotorfilm_oil": 112_000,
-    "rotorfilm_loops": 335_000,
-    "rotorfilm_master": 308_000,
+    "rotorfilm_loops": 352_000,
+    "rotorfilm_master": 330_000,
 }
 """Bytes of each library on Linux, x86_64: what it has, and some room for other compilers."""
 

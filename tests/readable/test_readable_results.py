@@ -114,6 +114,8 @@ def value_of(name, said):
         array = array * (1.0 - 0.5j) if "complex" in said.kind or name == "eigenvalues" else array
         keys = ("x", "y", "force_x", "force_y") if name == "signals" else ("left_x", "right_force_y")
         return {key: array + k for k, key in enumerate(keys)} if said.kind.startswith("dict") else array
+    if said.kind.startswith("dict of str to (float, float)"):
+        return {"left_x": (number, number + 1.0), "right_x": (number, number + 2.0)}
     if other := re.search(r"(?:tuple of|dict of str to) (\w+)", said.kind):
         one = sample(RESULTS[other[1]]) if other[1] in RESULTS else plain(other[1], number)
         many = SIZES.get(*said.shape, 4) if said.shape else 2

@@ -384,6 +384,11 @@ class RingKernel(FilmKernel):
             self.struct.mobility = mobility.struct(per_rate)
             self.sped = mobility.drags or per_rate > 0.0
 
+    def over(self, grids: tuple[Grid, ...]) -> RingKernel:
+        """Return this film on other grids."""
+        slenderness, spans, _, *others = self._arguments
+        return RingKernel(slenderness, spans, grids, *others)
+
     def _grid(self, grid: Grid) -> Any:
         floats = "line", "face", "value", "width", "conductance", "place", "wall"
         rows = {name: getattr(grid, name) for name in floats}

@@ -49,7 +49,11 @@ if TYPE_CHECKING:
     )
     from .map_film import MapFilm as MapFilm, bearing_table
     from .mobile_map import MobileMapFilm, MobileMapTable
-    from .moment_carrying_journal import MomentCarryingJournal as MomentCarryingJournal
+    from .moment_carrying_journal import (
+        MomentCarryingJournal as MomentCarryingJournal,
+        TiltEstimate as TiltEstimate,
+        TiltLevel as TiltLevel,
+    )
     from .reynolds_film import (
         ExtrapolatedFilm as ExtrapolatedFilm,
         ReynoldsFilm as ReynoldsFilm,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -23,6 +24,7 @@ from ...core.results import BearingLosses
 from ...native import JournalKernel, Status
 from ...native.film_kernels import LobesKernel
 from ...native.spec import NativeSpec, journal_spec
+from ..films.finite_volumes import RingKernel
 from ..films.geometry import TURN
 from ..films.law import BoundKernel
 from ..films.map_fit import matrix_sizes
@@ -37,7 +39,7 @@ from .pad_bearing import (
     losses_of_pads,
 )
 from .pad_build import DIRECTIONS, FLOOR
-from .pad_film import PadFilm, PadMapFilm, fitted_pad_film, warn_beyond_map, with_pad_tables
+from .pad_film import PadFilm, PadGridFilm, PadMapFilm, fitted_pad_film, warn_beyond_map, with_pad_tables
 from .pad_table import LossyPadFilm
 
 # A fixed pad with a center of curvature of its own, and the usual sets of them by name.
@@ -291,6 +293,22 @@ class LobedBearing(FilmReaction, PadBearing):
             for lobe in self.lobes
         ]
         return BoundLobes(LobesKernel(films, places), self.clearance, self.lobes)
+
+    def whole_films(
+        self, profile: Callable[[Array], Array]
+    ) -> list[tuple[RingKernel, float, tuple[float, float]]] | None:
+        """Return film, angle and center of each lobe over the whole length; None of a film without a grid.
+
+        Parameters
+        ----------
+        profile : callable
+            Gap over the clearance of a centered journal along the length; see `over_whole_length`.
+        """
+        film = self.film_at_speed
+        if not isinstance(film, PadGridFilm):
+            return None
+        kernels = {extent: film.whole(extent, self.slenderness, profile) for extent in self.extents}
+        return [(kernels[lobe.extent], lobe.middle, lobe.center) for lobe in self.lobes]
 
     def losses(
         self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool | None = None

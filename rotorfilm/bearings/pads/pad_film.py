@@ -17,7 +17,7 @@ from ...core.progress import Report, silent
 from ...core.sources import source_digest
 from ...native import MapKernel
 from ...native.film_kernels import FilmKernel
-from ..films.finite_volumes import RingKernel, require_cells
+from ..films.finite_volumes import RingKernel, over_whole_length, require_cells
 from ..films.law import continued
 from ..films.map_table import cached_table, table_path, told
 from ..films.mobility import (
@@ -186,6 +186,11 @@ class PadGridFilm:
     def kernel(self, extent: float, slenderness: float) -> FilmKernel:
         """Return the compiled film of a pad; see `PadFilm`."""
         return self._grid(extent, slenderness)
+
+    def whole(self, extent: float, slenderness: float, profile: Callable[[Array], Array]) -> RingKernel:
+        """Return the film of a pad over the whole length; see `over_whole_length` for the profile."""
+        film = self._grid(extent, slenderness)
+        return film.over(tuple(over_whole_length(grid, profile) for grid in film.grids))
 
     def losses(self, extent: float, slenderness: float) -> Callable[[Array, Array], PadFlows]:
         """Return shear and flow of a pad at rest; see `LossyPadFilm`."""

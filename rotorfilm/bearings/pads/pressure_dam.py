@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from ctypes import addressof, byref, c_double, c_size_t
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -573,6 +573,8 @@ class DamKernel:
     mobility : Mobility, optional
     """
 
+    function: ClassVar[str] = "rf_recess_at"
+
     def __init__(
         self,
         rows: Array,
@@ -590,7 +592,7 @@ class DamKernel:
             radius, _, clearance, viscosity = dimensions
             self.struct.mobility = mobility.struct(per_rate(mobility, radius * clearance / viscosity))
         self._reference = byref(self.struct)
-        self._at = loops()["rf_recess_at"]
+        self._at = loops()[self.function]
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._arguments

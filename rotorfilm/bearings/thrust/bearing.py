@@ -14,6 +14,7 @@ from ...core.model import Array, Linearization, static_linearization
 from ..assemblies import Parallel
 from ..films.geometry import TURN
 from ..reaction import StaticReaction, state_of
+from .film_tables import require_tabulable
 from .sector_pads import SectorPads
 
 
@@ -91,6 +92,8 @@ class ThrustBearing(SectorPads, StaticReaction):
                 f"pad_arc must be a turn over {self.pads!r} pads for a continuous film, "
                 f"got {self.pad_arc!r} rad"
             )
+        if self.tabulated:
+            require_tabulable(self)
 
     @property
     def closed(self) -> bool:

@@ -22,6 +22,7 @@ from ...core.model import Array, Linearization
 from ...core.port import no_rest
 from ...core.signals import Signal, signals_of
 from ..reaction import NOMINAL_SPEED, input_vector
+from .film_tables import require_tabulable
 from .sector_pads import SectorPads
 
 _MIDDLE = 1e-3
@@ -79,6 +80,8 @@ class TiltingThrustBearing(SectorPads):
         for name in ("pivot_arc", "pivot_width"):
             if not 0.0 < require_number(name, getattr(self, name)) < 1.0:
                 raise InputError(f"{name} must be in (0, 1), got {getattr(self, name)!r}")
+        if self.tabulated:
+            require_tabulable(self)
         if not self.crown and abs(self.pivot_arc - 0.5) < _MIDDLE:
             raise InputError(
                 "pivot_arc must not be 0.5, in the middle of flat rigid pads with oil of one viscosity: they "

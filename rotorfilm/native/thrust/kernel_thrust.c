@@ -2,7 +2,8 @@
 
    Tables: angle (lines + 1), radius (nodes + 1), profile (lines x nodes x 4) of sector.h; numbers (9): ring, ruptured,
    levels and extrapolated of sector.h; count, first, side, pivot and tilts of thrust.h. Parameters: gap [m], viscosity
-   [Pa s]. Inputs: z [m], tilt_x, tilt_y [rad], their rates, speed [rad/s]. States: tilts of the pads [rad]. Outputs:
+   [Pa s]. Or also a film from tables, film_table.h: film (cells_x + 5, cells_y + 5, functions), ranges (8) of its members x0 to
+   pivot, and of a whole bearing shears (cells_x + 5, 2). Inputs: z [m], tilt_x, tilt_y [rad], their rates, speed [rad/s]. States: tilts of the pads [rad]. Outputs:
    force_z [N], moment_x, moment_y, torque [N m]. */
 
 /* Documentation of the FMU
@@ -23,13 +24,16 @@
    Where nothing drives the film of a pad the force has no derivative. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "../kernels/kernel.h"
 #include "thrust.h"
+#include "../films/quintic.h"
 
 #define MOST_CELLS 10000u
 #define MOST_PADS 1000
 #define NUMBERS 9
+#define RANGES 8
 
 enum { GAP, VISCOSITY, PARAMETERS };
 
@@ -64,6 +68,34 @@ static int fits(const rf_table *angle, const rf_table *radius, const rf_table *p
            && is_rising(angle->numbers, lines + 1) && is_rising(radius->numbers, nodes + 1);
 }
 
+/* The table of the film, if there is one. */
+static int take_film(const rf_tables *tables, rf_thrust *bearing, rf_message *why)
+{
+    rf_film_table *to = &bearing->table;
+    int present = 0;
+    for (size_t k = 0; k < tables->count; ++k)
+        present = present || strcmp(tables->list[k].name, "film") == 0;
+    if (!present)
+        return RF_OK;
+    const rf_table *film = rf_find_table(tables, "film", 3, why);
+    const double *n = film ? rf_numbers(tables, "ranges", RANGES, why) : NULL;
+    if (!n)
+        return RF_INVALID;
+    const uint32_t functions = film->extent[2], x = film->extent[0], y = film->extent[1];
+    const rf_table *shears = functions == RF_TABLE_WHOLE ? rf_find_table(tables, "shears", 2, why) : NULL;
+    if (functions == RF_TABLE_WHOLE && !shears)
+        return RF_INVALID;
+    const int sized = x > RF_ORDER && y > RF_ORDER && x < MOST_CELLS && y < MOST_CELLS && n[1] > n[0] && n[3] > n[2];
+    const int known = shears ? bearing->tilts == 0 && shears->extent[0] == x && shears->extent[1] == RF_TABLE_SHEARS
+                             : functions == RF_TABLE_PAD && bearing->tilts > 0;
+    if (!sized || !known)
+        return rf_say(why, RF_INVALID, "film must be a table of a whole bearing of fixed pads, or of one pad that tilts");
+    const rf_film_table taken = {(int32_t)functions, (int32_t)x - RF_ORDER + 1, (int32_t)y - RF_ORDER + 1, n[0], n[1], n[2],
+                                 n[3], n[4], n[5], n[6], n[7], film->numbers, shears ? shears->numbers : NULL};
+    *to = taken;
+    return RF_OK;
+}
+
 static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
     rf_thrust *bearing = &((model *)kernel)->bearing;
@@ -78,7 +110,9 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
                       "and cells that halve");
     const rf_sector pad = {profile->extent[0], profile->extent[1], angle->numbers, radius->numbers, profile->numbers,
                            1.0, (int32_t)n[0], (int32_t)n[1], (int32_t)n[2], (int32_t)n[3]};
-    const rf_thrust taken = {pad, (size_t)n[4], n[5], n[6], 0.0, n[7], (int32_t)n[8], 0};
+    rf_thrust taken = {pad, (size_t)n[4], n[5], n[6], 0.0, n[7], (int32_t)n[8], 0, {0}};
+    if (take_film(tables, &taken, why) != RF_OK)
+        return RF_INVALID;
     const rf_sizes mine = {PARAMETERS, RF_THRUST_INPUTS, RF_SECTOR_ROWS, taken.count * (size_t)taken.tilts, 0};
     *bearing = taken;
     *sizes = mine;

@@ -84,7 +84,11 @@ static int take_pad(const rf_thrust *bearing, pad_film *at, double speed, int di
 {
     double w[ROWS], by[ROWS * RF_SECTOR_COLUMNS];
     drive(at->q, at->v, speed, w);
-    const int status = rf_sector_film(&bearing->pad, at->q, w, at->y, differentiated ? by : NULL);
+    int status = RF_OUTSIDE;
+    if (bearing->table.functions == RF_TABLE_PAD)
+        status = rf_pad_table_film(&bearing->table, &bearing->pad, at->q, w, at->y, differentiated ? by : NULL);
+    if (status == RF_OUTSIDE)
+        status = rf_sector_film(&bearing->pad, at->q, w, at->y, differentiated ? by : NULL);
     at->still = status == RF_UNDEFINED;
     for (int i = 0; i < ROWS && differentiated && status == RF_OK; ++i) {
         const double *row = by + RF_SECTOR_COLUMNS * i, *by_w = row + PLACES;
@@ -214,6 +218,20 @@ static int same_place(const pad_film *a, const pad_film *b)
     return same;
 }
 
+/* The whole bearing from its table; RF_OUTSIDE beyond it. */
+static int whole_at(const rf_thrust *bearing, const double *u, double *y, double *D)
+{
+    const double side = bearing->side, q[PLACES] = {bearing->gap + side * u[0], side * u[1], side * u[2]};
+    const double v[PLACES] = {side * u[3], side * u[4], side * u[5]};
+    const int status = rf_whole_film(&bearing->table, bearing->pad.viscosity, q, v, u[6], y, D);
+    for (int i = 0; status == RF_OK && i < ROWS; ++i) {
+        y[i] *= i < PLACES ? side : 1.0;
+        for (int k = 0; D && k < RF_THRUST_INPUTS; ++k)
+            D[i * RF_THRUST_INPUTS + k] *= (i < PLACES ? side : 1.0) * (k < 2 * PLACES ? side : 1.0);
+    }
+    return status;
+}
+
 int rf_thrust_at(const rf_thrust *bearing, const double *x, const double *u, double *y, double *rates,
                  const rf_thrust_slopes *slopes)
 {
@@ -227,6 +245,8 @@ int rf_thrust_at(const rf_thrust *bearing, const double *x, const double *u, dou
         memset(slopes->A, 0, states * states * sizeof(double));
         memset(slopes->D, 0, ROWS * RF_THRUST_INPUTS * sizeof(double));
     }
+    if (bearing->table.functions == RF_TABLE_WHOLE && whole_at(bearing, u, y, slopes ? slopes->D : NULL) == RF_OK)
+        return rf_is_broken(y, ROWS) ? RF_NOT_FINITE : RF_OK;
     for (size_t k = 0; k < bearing->count; ++k) {
         double back[PLACES];
         memset(&next, 0, sizeof next);

@@ -7,7 +7,7 @@
 #ifndef ROTORFILM_THRUST_H
 #define ROTORFILM_THRUST_H
 
-#include "sector.h"
+#include "film_table.h"
 
 #define RF_THRUST_INPUTS 7 /* z, a, b, vz, va, vb, speed */
 
@@ -20,6 +20,7 @@ typedef struct rf_thrust {
     double pivot; /* radius at which pivots are [m] */
     int32_t tilts; /* of a pad: none, A_t, or A_t and A_r */
     int32_t held;  /* whether they stay where they are */
+    rf_film_table table; /* which answers within its range, if it has functions */
 } rf_thrust;
 
 /* Derivatives by the states and inputs, as of a kernel: A and B of the rates, C and D of y. */

@@ -365,3 +365,11 @@ def test_an_equilibrium_prints_and_tabulates_its_motions_with_their_units():
         "N",
     ]
     assert at.losses.power_loss == TAPER.losses(at.position, STILL, 1.0).power_loss
+
+
+def test_round_off_beside_the_diagonal_prints_as_zero():
+    at = rf.equilibrium(TAPER, [-0.5, 0.0, 0.0], 1.0)
+    rows = dict(row[:2] for row in rf.coefficients(TAPER, at.position, 1.0).to_rows())
+    assert float(rows["stiffness z tilt x"].split()[0]) == 0.0
+    assert float(rows["stiffness z z"].split()[0]) > 1.0
+    assert not [row for row in at.to_rows() if "eccentricity" in row[0]]
