@@ -104,11 +104,13 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
         If the load is beyond what the film carries at eccentricity ratio 0.9999, or where pads touch, if the
         film carries nothing (no wedge at zero speed), or if the search does not converge.
 
-    Notes ----- Newton's method with the exact Jacobian in s = log(chi / (1 - chi)), chi = |position| /
-    clearance, and the angle phi of the position. The residual is (log(|F| / |load|), angle from -load to F).
-    A film force grows as a power of chi near the center and of 1 - chi near the wall: the equations are
-    nearly linear. Ball bearings, whose force may be zero over a range of positions, find their equilibrium
-    themselves (`core.port`).
+    Notes
+    -----
+    Newton's method with the exact Jacobian in s = log(chi / (1 - chi)), chi = |position| / clearance, and the
+    angle phi of the position. The residual is (log(|F| / |load|), angle from -load to F). A film force grows
+    as a power of chi near the center and of 1 - chi near the wall: the equations are nearly linear. Ball
+    bearings, whose force may be zero over a range of positions, find their equilibrium themselves
+    (`core.port`).
     """
     require_reaction("reaction", reaction, heavy=True)
     freedoms = freedoms_of(reaction)

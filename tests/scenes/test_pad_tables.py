@@ -119,7 +119,7 @@ def test_without_a_viscosity_the_films_are_on_the_oil_in_balance(table):
             FIVE.replace("on_pad", "on pad"),
             "tilting_pad.loading must be one of on_pad, between_pads, .*'on_pad'",
         ),
-        (FIVE.replace("60 deg", "80 deg"), "tilting_pad.pivots must be angles that differ by at least the extent"),
+        (FIVE.replace("60 deg", "80 deg"), "pivots must be angles that differ by at least the extent"),
         (TILTING + OIL + "pivots = []\n", "tilting_pad.pivots must be a list of 1 to 64 angles"),
         (FIVE + STEP.partition("\n")[2], "pressure_dam and tilting_pad must not stand in one scene"),
     ],

@@ -208,10 +208,12 @@ class SqueezeFilmDamper(InertialModel):
     ValidityWarning
         If the short film is used beyond length / diameter 0.25; the warning states its error.
 
-    Notes ----- Equations of Cusano & Funk (1977) without the wedge term, since the race does not spin. Full
-    films have F = -(a w + b (e.w) e + k e), w = velocity/clearance, in closed form, also at the center. Fluid
-    inertia is of first order in the squeeze Reynolds number, frequency clearance^2 density/viscosity: a full
-    film is valid up to 10, a ruptured film up to 5; see `require_range`.
+    Notes
+    -----
+    Equations of Cusano & Funk (1977) without the wedge term, since the race does not spin. Full films have F
+    = -(a w + b (e.w) e + k e), w = velocity/clearance, in closed form, also at the center. Fluid inertia is
+    of first order in the squeeze Reynolds number, frequency clearance^2 density/viscosity: a full film is
+    valid up to 10, a ruptured film up to 5; see `require_range`.
     """
 
     radius: float

@@ -373,9 +373,11 @@ class PressureDamBearing(PadBearing, KernelReaction):
         InputError, FilmContactError
             As `force`.
 
-        Notes ----- As `losses_of_pads`; pressure on the steps adds c_p D p/2 to the torque, integrated along
-        their edges. For the flow, a film begins only where streamers bring enough oil; the force does not
-        include this effect.
+        Notes
+        -----
+        As `losses_of_pads`; pressure on the steps adds c_p D p/2 to the torque, integrated along their edges.
+        For the flow, a film begins only where streamers bring enough oil; the force does not include this
+        effect.
         """
         q, v, omega = broadcast_state(position, velocity, speed)
         self.require_film(q)

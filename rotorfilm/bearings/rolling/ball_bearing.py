@@ -422,12 +422,12 @@ class BearingPair(BallElement):
 
     @property
     def running(self) -> tuple[BallLaw, float]:
-        """Law of the balls and growth of the inner rings [m], those of the bearing."""
+        """Law of the balls and growth of the inner rings [m], as in the single bearing."""
         return self.bearing.running
 
     @property
     def cage_ratio(self) -> float:
-        """Speed of the cages over that of the shaft, that of the bearing."""
+        """Speed of the cages over that of the shaft, as in the single bearing."""
         return self.bearing.cage_ratio
 
     def turned(self, angle: float) -> BearingPair:
@@ -436,7 +436,7 @@ class BearingPair(BallElement):
 
     @property
     def waves(self) -> Array:
-        """Waves of the races of both rows, those of the bearing."""
+        """Waves of the races of both rows, as in the single bearing."""
         return self.bearing.waves
 
     @property
