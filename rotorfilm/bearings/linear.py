@@ -99,7 +99,7 @@ class TabulatedBearing(Plottable, Tabled, LinearReaction):
         Rows: forces and moments; columns: places; both in the order of the freedoms. In [N/rad], [N],
         [N m/rad] where there are tilts.
     damping : array_like, shape (m, n, n) [N s/m]
-        The same by the rates.
+        Damping in the same arrangement, by the rates.
     freedoms : tuple of str
         Motions of the shaft that it reacts to, some of `core.signals.FREEDOMS`; ("x", "y") by default.
 
@@ -281,7 +281,7 @@ class LinearBearing(LinearReaction):
         freedoms. Entries of tilts are in [N/rad], [N] and [N m/rad]. One number holds for all directions, n
         numbers are the diagonal.
     damping : float [N s/m] or n x n numbers
-        The same by the rates.
+        Damping in the same arrangement, by the rates.
     freedoms : tuple of str
         Motions of the shaft that it reacts to, some of `core.signals.FREEDOMS`; ("x", "y") by default.
 

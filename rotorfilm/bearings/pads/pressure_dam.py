@@ -168,7 +168,7 @@ class PressureDamBearing(PadBearing, KernelReaction):
     Angles are absolute, from +x towards +y. The film is two-dimensional, on a grid of its own for each pad,
     with ambient pressure, 0, at all edges of the pads and where it ruptures.
 
-    Dimensions, clearance and lubricant are given as to every `PadBearing`.
+    Dimensions, clearance and lubricant are the parameters of `PadBearing`.
 
     Parameters
     ----------
