@@ -46,6 +46,8 @@ DRAWN = {
     "python examples/cracked_shaft.py": ["cracked_shaft"],
     "python examples/flexible_rotor.py": ["campbell", "rotor", "unbalance_response"],
     "python examples/rub.py": ["rub"],
+    "python examples/thrust_bearing.py": ["thrust"],
+    "python benchmarks/thrust_models.py": ["thrust_models"],
     "python examples/whirl_and_whip.py": ["whirl_and_whip", "waterfall", "orbits_run_up"],
     "python examples/whirl_bifurcation.py": ["whirl_bifurcation"],
 }

@@ -229,7 +229,7 @@ class ShaftRotor(Plottable, FlexibleRotor):
                 *(
                     r
                     for p in self.probes
-                    for r in displacements(p.name, (2 * p.node, 2 * p.node + size), 2 * size)
+                    for r in displacements(p.name, (2 * p.node, 2 * p.node + size), 2 * size, p.angle)
                 ),
                 *_support_readouts(supported, size),
             ),

@@ -285,6 +285,11 @@ class Scene:
         """The tables as the file has them, with its units; empty of a scene that was made in Python."""
         return MappingProxyType(vars(self).get("_given", {}))
 
+    def save(self, path: str | PathLike[str]) -> Path:
+        """Write the tables as a scene file, with the units as read; return the path."""
+        save: Any = brought("scenes.save_scene.save_scene")
+        return Path(save(self, path))
+
     def report(self, **asked: Any) -> Any:
         """Return a report of the scene, of which `save("report.html")` makes one page.
 
