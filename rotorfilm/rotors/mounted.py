@@ -147,7 +147,7 @@ def wired(rotor: Model, bearings: Bearings, name: str) -> list[Mount]:
         further inputs, or has states and no derivative.
     """
     inputs, outputs = names(rotor.inputs), names(rotor.outputs)
-    mounts, last = [], len(rotor.states)
+    mounts, last = [], np.size(getattr(rotor, "initial_state", ()))
     for station, bearing in bearings.items():
         argument = f"{name}[{station!r}]" if station else name
         require_reaction(argument, bearing, heavy=True, over_time=True)

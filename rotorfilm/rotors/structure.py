@@ -600,9 +600,8 @@ def summed(size: int, parts: Iterable[tuple[Sequence[int], Array]]) -> Any:
 
     rows, columns, values = [], [], []
     for places, part in parts:
-        row, column = np.meshgrid(places, places, indexing="ij")
-        rows.append(row.ravel())
-        columns.append(column.ravel())
+        rows.append(np.repeat(places, len(places)))
+        columns.append(np.tile(places, len(places)))
         values.append(np.ravel(part))
     if not values:
         return sparse.csr_array((size, size))

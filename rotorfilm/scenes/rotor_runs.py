@@ -15,10 +15,11 @@ from ..analysis import simulate, simulate_rotor
 from ..bearings.seal import AnnularSeal
 from ..core.errors import ContactError, InputError, warn_user
 from ..core.model import Array
-from ..core.port import Reaction
+from ..core.port import Reaction, freedoms_of
 from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory
+from ..core.signals import PLANAR
 from .export_scene import at_rest, at_rest_on_film, from_shaft_rest
 from .shared_tables import BladeLossTable, GroundTable, MotorTable, RunUpTable, UnbalanceTable, require_kind
 
@@ -239,7 +240,8 @@ def _motion(scene: Scene, parts: _Parts, times: Array) -> Trajectory:
         rotor = rotors.BaseExcitedRotor(rotor=rotor, base=scene.excitation.motion(parts.duration))
     if isinstance(parts.rotor, rotors.RigidRotor):
         return simulate(rotor, parts.bearings[""], duration=parts.duration, times=times, rtol=RTOL)
-    if any(getattr(bearing, "states", ()) for bearing in parts.bearings.values()):
+    films = parts.bearings.values()
+    if any(getattr(film, "states", ()) or freedoms_of(film) != PLANAR for film in films):
         return simulate(rotor, parts.bearings, duration=parts.duration, times=times, rtol=RTOL)
     return simulate_rotor(
         rotors.mount(rotor, parts.bearings), duration=parts.duration, times=times, rtol=RTOL
@@ -265,7 +267,8 @@ def _on_motor(table: MotorTable, parts: _Parts, times: Array) -> Trajectory:
 def _places(run: Trajectory) -> dict[str, Array]:
     """Return each displacement (x, y) over time, shape (2, n)."""
     pairs = [name for name in run.signals if name == "x" or name.endswith("_x")]
-    moved = [name for name in pairs if not name.endswith("force_x")]
+    others = ("force_x", "moment_x", "tilt_x", "tilt_rate_x")
+    moved = [name for name in pairs if not name.endswith(others)]
     return {
         name[:-2] or "journal": np.stack([run.signals[name], run.signals[f"{name[:-1]}y"]]) for name in moved
     }

@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import rotors
 from ..analysis import AxialStage, DisturbingStage, Impeller
+from ..bearings.assemblies import Parallel
 from ..bearings.journal import JournalBearing
 from ..bearings.linear import LinearBearing
 from ..bearings.seal import AnnularSeal
@@ -22,6 +23,7 @@ from ..core.port import Reaction
 from . import reading
 from .journal_tables import JournalTable
 from .shared_tables import LubricantTable, UnbalanceTable
+from .thrust import ThrustTable
 
 # What a shaft of a scene is made of: its pieces, couplings, disks, and bearings.
 
@@ -155,6 +157,8 @@ class BearingTable:
         Beside that stiffness.
     seal : AnnularSeal or None
         Seal with its added mass, which a run over time leaves out.
+    thrust : ThrustTable or None
+        A thrust bearing with its axial load, of a viscosity; with it the shaft also moves along its axis.
     support : Support or None
         Its housing; rigid unless given.
     """
@@ -165,11 +169,12 @@ class BearingTable:
     stiffness: float | Pair | None = None
     damping: float | Pair = 0.0
     seal: Annotated[AnnularSeal | None, reading.Table(SEAL)] = None
+    thrust: ThrustTable | None = None
     support: rotors.Support | None = None
 
     def __post_init__(self) -> None:
-        if sum(kind is not None for kind in (self.journal, self.stiffness, self.seal)) != 1:
-            raise InputError("journal, or else stiffness or seal, is required, got several or none")
+        if sum(kind is not None for kind in (self.journal, self.stiffness, self.seal, self.thrust)) != 1:
+            raise InputError("journal, or else stiffness, seal or thrust, is required, got several or none")
         if self.journal is None or self.journal.has_lubricant:
             self.build()
         self.station()
@@ -182,8 +187,10 @@ class BearingTable:
             else replace(self, journal=self.journal.on(f"{where}.journal", lubricant))
         )
 
-    def build(self) -> JournalBearing | LinearBearing | AnnularSeal:
+    def build(self) -> JournalBearing | LinearBearing | AnnularSeal | Parallel:
         """Return the bearing."""
+        if self.thrust is not None:
+            return self.thrust.under_shaft()
         if self.seal is not None:
             return self.seal
         if self.journal is not None:
@@ -194,7 +201,7 @@ class BearingTable:
 
     def station(self) -> rotors.Station:
         """Return where it is."""
-        return reading.made_from(rotors.Station, self)
+        return reading.made_from(rotors.Station, self, feels_tilt=self.thrust is not None)
 
 
 class BearingList(reading.TableList):
@@ -431,6 +438,7 @@ class ShaftTable(reading.Taking):
             stations=tuple(bearing.station() for bearing in self.bearings),
             unbalances=tuple(reading.made_from(rotors.Unbalance, one) for one in (*self.unbalances, *extra)),
             speed=speed,
+            axial=any(bearing.thrust is not None for bearing in self.bearings),
         )
 
     def build_bearings(self) -> dict[str, Reaction]:
@@ -441,6 +449,12 @@ class ShaftTable(reading.Taking):
         """Return the names of what a question may be about: bearings, and probes unless it is for forces."""
         probes = () if forces else tuple(probe.name for probe in self.probes)
         return (*(bearing.name for bearing in self.bearings), *probes)
+
+    def require_lateral(self, what: str) -> None:
+        """Raise InputError, naming what it is for, where the shaft also moves along its axis."""
+        thrust = [bearing.name for bearing in self.bearings if bearing.thrust is not None]
+        if thrust:
+            raise InputError(f"shaft.bearings must have no thrust bearing for {what}, got {thrust}")
 
     def require_node(self, name: str, node: int) -> None:
         """Raise InputError unless the shaft has this node."""

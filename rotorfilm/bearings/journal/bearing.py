@@ -362,7 +362,7 @@ def turbulent_map(mobility: Mobility) -> FilmLaw:
     """Return the map of a plain turbulent bearing."""
     from .mobile_map import MobileMapFilm
 
-    return MobileMapFilm(mobility=mobility)
+    return MobileMapFilm(mobility=mobility, nodes=(24, 48, 32))
 
 
 def fitted_film(film: FilmLaw, geometry: FilmGeometry) -> FilmLaw:
