@@ -19,6 +19,7 @@ from ..core.errors import FmuError, brief
 from ..core.files import read_text
 from ..core.model import Array
 from . import instance as fmus
+from .layered import FOLDER, missing_references
 from .native.platforms import libraries, require_complete_file
 
 REFERENCE_TOLERANCE = 1e-8
@@ -58,8 +59,9 @@ def check_fmu(path: str | PathLike[str]) -> list[CheckItem]:
 
     The checks are its description by fmpy, and whether its libraries for all platforms are whole. Its
     directional derivatives are compared with central differences of fourth order, with steps scaled by the
-    nominal values. FMU states are saved, restored and serialized. A native FMU of this package also repeats
-    its reference trajectory, in Co-Simulation and in Model Exchange.
+    nominal values. FMU states are saved, restored and serialized. The files that a manifest of FMI-LS-REF
+    names must be there. A native FMU of this package also repeats its reference trajectory, in
+    Co-Simulation and in Model Exchange.
 
     Parameters
     ----------
@@ -79,6 +81,7 @@ def check_fmu(path: str | PathLike[str]) -> list[CheckItem]:
         checks: dict[str, Callable[[], Outcome]] = {
             "description": lambda: _check_description(str(path)),
             "libraries": lambda: _check_libraries(folder),
+            "related files": lambda: _check_references(description, folder),
             "directional derivatives": lambda: _check_derivatives(*of),
             "adjoint derivatives": lambda: _check_adjoint(*of),
             "FMU state": lambda: _check_state(description, folder),
@@ -109,6 +112,21 @@ def _check_libraries(folder: str) -> Outcome:
     if not found:
         return None, None, "no compiled library"
     return True, float(len(found)), "as long as their headers say"
+
+
+def _check_references(description: Any, folder: str) -> Outcome:
+    """Return whether the files of FMI-LS-REF are there, and its saved state is one of this FMU."""
+    missing = missing_references(folder)
+    if missing is None:
+        return None, None, "no files of FMI-LS-REF"
+    state = Path(folder, FOLDER, "warm_state.bin")
+    if state.is_file() and not missing:
+        with closing(fmus.instantiated(description, folder, False)) as instance:
+            instance.initialize([], [])
+            saved = instance.deserialize(state.read_bytes())
+            instance.restore(saved)
+            instance.release(saved)
+    return not missing, float(len(missing)), "files of the manifest that are missing"
 
 
 def _check_derivatives(description: Any, folder: str, reference: Array | None) -> Outcome:

@@ -14,7 +14,8 @@ from ..bearings.assemblies import Parallel
 from ..bearings.films.turbulence import stiffening
 from ..bearings.own_reaction import as_reaction
 from ..bearings.thrust import TURBULENT_PADS, ThrustBearing, ThrustLosses, TiltingThrustBearing, double_acting
-from ..core.errors import InputError, require_number, require_positive
+from ..bearings.thrust.sector_pads import SENSE
+from ..core.errors import EquilibriumError, InputError, require_number, require_positive
 from ..core.model import Array
 from ..core.port import Reaction, quasi_static, static_force
 from ..core.progress import Report, silent
@@ -171,18 +172,19 @@ class ThrustData(Readable):
     Attributes
     ----------
     inner_radius, outer_radius : float [m]
-        Of the pads.
+        Radii of the pads.
     pads : int
-        Of one side.
+        Number of pads of one side.
     pad_arc : float [rad]
+        Angle of one pad.
     viscosity : float [Pa s]
-        Of the films, or of fresh oil where the temperature follows from the balance of their heat.
+        Viscosity of the films, or of fresh oil where their temperature follows from a balance of heat.
     pivot_arc : float or None [1]
-        Of tilting pads.
+        Place of the pivot as part of the arc from the leading edge; None for fixed pads.
     play : float or None [m]
-        Of a double-acting bearing.
+        Sum of both films of a double-acting bearing; None for pads on one side.
     axial_load : float [N]
-        That presses the collar onto the pads.
+        Load that presses the collar onto the pads.
     """
 
     inner_radius: float
@@ -295,6 +297,8 @@ def rest_at_film(bearing: Any, film: float, speed: float) -> ThrustRest:
     ------
     InputError
         If a pair has no play for such a film.
+    EquilibriumError
+        If the film carries no load at this speed.
     """
     pads: Any = bearing.reactions[0] if isinstance(bearing, Parallel) else bearing
 
@@ -309,9 +313,21 @@ def rest_at_film(bearing: Any, film: float, speed: float) -> ThrustRest:
             f"smallest_film must leave half of the play, {pads.gap!r} m, over pivots or lands, got {film!r}"
         )
     if not pads.is_warming:
-        return ThrustRest(place, speed, bearing)
+        return _carrying(ThrustRest(place, speed, bearing), film)
+    fresh = bearing.at_temperature(bearing.cooled[1].supply_temperature)
+    _carrying(ThrustRest(place, speed, fresh), film)
     temperature = bearing.balanced_temperature(place, np.zeros(3), speed)
     return ThrustRest(place, speed, bearing.at_temperature(temperature))
+
+
+def _carrying(rest: ThrustRest, film: float) -> ThrustRest:
+    """Return a rest at a least film [m] whose load is positive; EquilibriumError for others."""
+    if not rest.load > 0.0:
+        raise EquilibriumError(
+            f"the pads must carry a load at smallest_film {film!r} m, got {rest.load:.6g} N at "
+            f"{rest.speed!r} rad/s; {SENSE}"
+        )
+    return rest
 
 
 def answer_thrust(scene: Scene, report: Report = silent) -> ThrustAnswer:

@@ -49,7 +49,7 @@ def test_fmpy_simulates_a_film_with_arrays(interface, tmp_path):
 def test_an_fmu_with_arrays_passes_its_checks(model, tmp_path):
     path = export_fmu(model, tmp_path / "part.fmu", "3.0", component="part", arrays=True)
     checked = {item.check: item.passed for item in check_fmu(path)}
-    assert all(checked.values())
+    assert False not in checked.values()
     assert len(checked) >= 7
     with extracted(path) as (_, folder):
         icons = etree.parse(f"{folder}/terminalsAndIcons/terminalsAndIcons.xml")

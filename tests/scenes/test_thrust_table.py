@@ -120,6 +120,16 @@ def test_the_load_of_fixed_pads_is_that_at_the_film_over_their_lands(profile):
         deep.ask()
 
 
+@pytest.mark.parametrize("oil", [THIN, ""])
+def test_pads_that_carry_nothing_are_no_answer(oil):
+    """A taper that the rotation leaves by its leading edge ruptures all of the film."""
+    parts = (FIXED, 'smallest_film = "20 um"\ncells = [16, 8]\n', RUN.replace("6000", "-6000"))
+    with pytest.raises(rf.EquilibriumError, match=r"got 0 N at -628.* carry only at positive speed"):
+        scene_of(oil, *parts, "" if oil else OIL, asked="thrust_load").ask()
+    with pytest.raises(rf.EquilibriumError, match="carry only at positive speed"):
+        scene_of(THIN, FIXED, LOAD, RUN.replace("6000", "-6000")).solve()
+
+
 def test_every_quantity_has_an_answer_within_its_estimate():
     """Against the finest grid; a tolerance of 20 % is met by all of one viscosity."""
     for quantity, row in QUANTITIES.items():

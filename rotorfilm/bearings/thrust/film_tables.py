@@ -33,6 +33,9 @@ TILT = 0.3
 SMALL = 0.1
 """The same of the differences by which the potential is expanded."""
 
+RUPTURED = 1e-3
+"""Potential over its largest on the table, in the units of its nodes, below which the grid answers."""
+
 GAPS, RISE = (-1.5, 3.5), 0.9
 """ln of the leading over the trailing gap of a pad, and part of the room that it rises outward."""
 
@@ -91,7 +94,9 @@ def film_table(pads: Any) -> ThrustFilmTable:
         tabulated=False,
     )
     make = _pad_table if pads.tilts else _whole_table
-    kept = table_path("thrust", (type(pads).__name__, shape, WHOLE_CELLS, PAD_CELLS, FILMS, TILT, GAPS, RISE))
+    kept = table_path(
+        "thrust", (type(pads).__name__, shape, WHOLE_CELLS, PAD_CELLS, FILMS, TILT, RUPTURED, GAPS, RISE)
+    )
     return cached_table(ThrustFilmTable, kept, lambda: make(shape))
 
 
@@ -103,7 +108,8 @@ def require_tabulable(pads: Any) -> None:
         return
     if not pads.deepest:
         raise InputError(
-            "tabulated must be False for plane pads, whose film has no depth to be compared with"
+            "tabulated must be False for plane pads, whose film has no depth to be compared with, "
+            f"got {pads.tabulated!r} with a depth of {pads.deepest!r} m"
         )
     if pads.pads < FEWEST:
         raise InputError(f"tabulated must be False for fewer than {FEWEST} pads, got {pads.pads!r}")
@@ -148,11 +154,12 @@ def _whole_table(pads: Any) -> ThrustFilmTable:
         yield delta * z**3
 
     values = np.array([[list(node(z, angle)) for angle in angles] for z in films.tolist()])
+    least = RUPTURED * float(values[..., 0].max())
     around = periodic_quintic_coefficients(values, 1)
     whole = np.concatenate([around[:, -2:], around, around[:, :3]], axis=1)
     shears = np.array([[z * _shear(pads, z, 2, 1), z**3 * _shear(pads, z, 4, 3)] for z in films])
     return ThrustFilmTable(
-        ranges=(low, high, 0.0, 2.0 * math.pi, TILT / pads.outer_radius, 0.0, 0.0, 0.0),
+        ranges=(low, high, 0.0, 2.0 * math.pi, TILT / pads.outer_radius, 0.0, least, 0.0),
         coefficients=quintic_coefficients(whole, 0),
         shears=quintic_coefficients(shears, 0),
     )

@@ -51,6 +51,9 @@ ROWS, INPUTS, FACTS = 4, 7, 9
 TURBULENT_PADS = 600.0
 """Reynolds number speed r h/nu, of mean radius and mean film, from about which thrust films are turbulent."""
 
+SENSE = "tapers, steps and pivots beyond 0.5 carry only at positive speed, about +z"
+"""Why pads may carry no load, in words."""
+
 _THIN, _THICK = 1e-4, 1e3
 """Films, over the nominal one, between which a load is sought."""
 
@@ -534,7 +537,7 @@ class SectorPads(WarmBearing):
         if not excess(low) > 0.0 > excess(high):
             raise EquilibriumError(
                 f"load must be carried by a film of {_THIN * self.film_scale:.3g} to "
-                f"{_THICK * self.film_scale:.3g} m, {said}"
+                f"{_THICK * self.film_scale:.3g} m, {said}; {SENSE}"
             )
         film = self.film_scale * math.exp(brentq(excess, low, high, rtol=1e-9))
         place = np.array([self.side * (film - self.gap), 0.0, 0.0])

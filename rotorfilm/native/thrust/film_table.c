@@ -9,6 +9,7 @@
 #define MOST P
 #define COLUMNS RF_SECTOR_COLUMNS
 #define ROWS RF_SECTOR_ROWS
+#define SHARE 0.05 /* of the potential that sources of tilt rates may add, to which their second order is used */
 #define OPENING 0.25 /* opening source of a corner, over the largest closing one, with which no pad was seen to rupture */
 
 /* Functions of a table and derivatives by its axes. */
@@ -113,6 +114,8 @@ int rf_whole_film(const rf_film_table *table, double viscosity, const double *q,
     t[4] = term_of(&at, 4, 0, 3, z, s, c, i);
     /* J is the sum of the terms times m; m by a, b, and the rates of both, and the speed. */
     const double w1 = v[1] + 0.5 * speed * b, w2 = v[2] - 0.5 * speed * a, half = 0.5 * speed;
+    if (!(-at.f[0] >= table->arm) || !(0.5 * fabs(t[4].h) * (w1 * w1 + w2 * w2) <= SHARE * fabs(t[0].h)))
+        return RF_OUTSIDE;
     const double m[F] = {1.0, 0.5 * tilt, a * w1 + b * w2, a * w2 - b * w1, 0.5 * (w1 * w1 + w2 * w2)};
     double u, near[RF_ORDER], slope[RF_ORDER], shear[RF_TABLE_SHEARS] = {0.0}, shear_x[RF_TABLE_SHEARS] = {0.0};
     const double per_x = table->cells_x / (table->x1 - table->x0);

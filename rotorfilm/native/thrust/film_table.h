@@ -27,13 +27,13 @@ typedef struct rf_film_table {
     int32_t cells_x, cells_y;
     double x0, x1, y0, y1;      /* first and last nodes */
     double leading, trailing;   /* of a pad: Y of these edges at the outer radius; of a bearing the largest tilt over z */
-    double arm, pivot;          /* of a pad [m] */
+    double arm, pivot;          /* of a pad [m]; of a bearing arm is the least f0, below which all pads nearly rupture */
     const double *coefficients; /* (cells_x + 5) x (cells_y + 5) x functions */
     const double *shears;       /* of a whole bearing: (cells_x + 5) x 2 */
 } rf_film_table;
 
 /* Force, moments and torque y[4] of all pads at q = (z, a, b), rates v and speed; unless NULL by[4][7] by q, v and speed.
-   RF_OUTSIDE, and nothing set, beyond the table. */
+   RF_OUTSIDE, and nothing set, beyond the table, below its least f0, or where sources of tilt rates add too much to J. */
 int rf_whole_film(const rf_film_table *table, double viscosity, const double *q, const double *v, double speed, double *y,
                   double *by);
 
