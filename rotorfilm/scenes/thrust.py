@@ -13,8 +13,14 @@ from ..analysis import coefficients, equilibrium
 from ..bearings.assemblies import Parallel
 from ..bearings.films.turbulence import stiffening
 from ..bearings.own_reaction import as_reaction
-from ..bearings.thrust import TURBULENT_PADS, ThrustBearing, ThrustLosses, TiltingThrustBearing, double_acting
-from ..bearings.thrust.sector_pads import SENSE
+from ..bearings.thrust import (
+    SENSE,
+    TURBULENT_PADS,
+    ThrustBearing,
+    ThrustLosses,
+    TiltingThrustBearing,
+    double_acting,
+)
 from ..core.errors import EquilibriumError, InputError, require_number, require_positive
 from ..core.model import Array
 from ..core.port import Reaction, quasi_static, static_force
