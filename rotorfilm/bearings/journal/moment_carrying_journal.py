@@ -498,7 +498,7 @@ class WholeFilm(NamedTuple):
     def turn(self) -> Array:
         """What makes pairs of the bearing frame of those of the film's, shape (4, 4)."""
         c, s = math.cos(self.middle), math.sin(self.middle)
-        return np.kron(np.eye(2), [[c, -s], [s, c]])
+        return np.asarray(np.kron(np.eye(2), [[c, -s], [s, c]]), dtype=np.float64)
 
     def least(self, place: Array) -> float:
         """Return the least film over the clearance at one place (e, tau) in the bearing frame."""
