@@ -297,8 +297,8 @@ def base_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = N
     -------
     control.StateSpace
         Inputs: `base_acceleration_x`, `base_acceleration_y` of the ground, and of all housings with it
-        [m/s2]. Outputs and states: as in `rotor_system`, displacements from the ground. With its counters
-        `work`, and its errors.
+        [m/s2]. Outputs and states: as in `rotor_system`, displacements from the ground. The attribute `work`
+        has the counters of the reduction, and `errors` its errors.
     """
     return _state_space(rotor, at, -rotor.structure.mass @ translations(rotor), BASE, name)
 

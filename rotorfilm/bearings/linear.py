@@ -117,7 +117,7 @@ class TabulatedBearing(Plottable, Tabled, LinearReaction):
         Rows: forces and moments; columns: places; both in the order of the freedoms. In [N/rad], [N],
         [N m/rad] where there are tilts.
     damping : array_like, shape (m, n, n) [N s/m]
-        The same by the rates.
+        Damping in the same arrangement, by the rates.
     freedoms : tuple of str
         Motions of the shaft that it reacts to, some of `core.signals.FREEDOMS`; ("x", "y") by default.
 
@@ -306,7 +306,7 @@ def within_table(speed: ArrayLike, known: Array) -> Array:
     omega = require_finite("speed", speed)
     if np.any(omega < known[0]) or np.any(omega > known[-1]):
         raise InputError(
-            f"speed must be within the table, {known[0]:.6g} to {known[-1]:.6g} rad/s, got {speed!r}"
+            f"speed must be within the table, {known[0]:.6g} to {known[-1]:.6g} rad/s, got {omega.tolist()}"
         )
     return omega
 
@@ -329,7 +329,7 @@ class LinearBearing(LinearReaction):
         freedoms. Entries of tilts are in [N/rad], [N] and [N m/rad]. One number holds for all directions, n
         numbers are the diagonal.
     damping : float [N s/m] or n x n numbers
-        The same by the rates.
+        Damping in the same arrangement, by the rates.
     freedoms : tuple of str
         Motions of the shaft that it reacts to, some of `core.signals.FREEDOMS`; ("x", "y") by default.
 

@@ -17,7 +17,7 @@ from ..core.files import write_atomically
 from . import instance as fmus
 from .archive import to_zip
 from .description import to_bytes
-from .native.platforms import MACHINES, SYSTEMS
+from .native.platforms import MACHINES, SYSTEMS, TARGETS
 from .system_export import Format, parameter_set
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
@@ -130,9 +130,19 @@ def _warm_state(description: Any, folder: str) -> list[Related]:
         content = instance.serialize(saved)
         instance.release(saved)
     text = f"state in Co-Simulation at t = {count * step:.9g} s under the start values of the inputs"
-    return [Related("warm_state.bin", content, "application/octet-stream", f"{STATE}/{_host()}", text)]
+    return [
+        Related(
+            "warm_state.bin",
+            content,
+            "application/octet-stream",
+            f"{STATE}/{_host(description.fmiVersion)}",
+            text,
+        )
+    ]
 
 
-def _host() -> str:
-    """Return what FMI 3.0 calls this machine."""
-    return f"{MACHINES.get(platform.machine().lower())}-{SYSTEMS.get(sys.platform)}"
+def _host(version: str) -> str:
+    """Return what a version of FMI calls this machine."""
+    folder = f"{MACHINES.get(platform.machine().lower())}-{SYSTEMS.get(sys.platform)}"
+    named = {target.folder: target.folder2 for target in TARGETS} if version == "2.0" else {}
+    return named.get(folder, folder)

@@ -23,6 +23,7 @@ from ..core.answers import (
     WorkUnit,
     relative_change,
 )
+from ..core.errors import InputError
 from ..core.port import Reaction
 from ..core.results import Coefficients
 from ..rotors import ShaftRotor
@@ -112,6 +113,12 @@ class ShaftFilms:
 
 def film_levels(shaft: ShaftTable) -> tuple[ShaftFilms, ...]:
     """Return what may stand in the journals of a shaft, the cheapest first; one level if all is settled."""
+    tilted = [one.name for one in shaft.bearings if one.tilt is not None]
+    if tilted:
+        raise InputError(
+            f"tilt of shaft.bearings must be left out for a question, got it of {', '.join(tilted)}: a scene "
+            "that asks none has modes, thresholds and responses with it"
+        )
     springs = {one.name: one.build() for one in shaft.bearings if one.journal is None}
     choices = {one.name: _choices(one.journal) for one in shaft.bearings if one.journal is not None}
     count = max((len(each) for each in choices.values()), default=1)

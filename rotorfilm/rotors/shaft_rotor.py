@@ -105,8 +105,10 @@ class ShaftRotor(Plottable, FlexibleRotor):
     InputError
         If an argument breaks its rule; of a part that is on no node, the message names the node.
 
-    Notes ----- Axial and torsional motion of a straight shaft is independent of its bending and its rotation;
-    only bearings couple them. For these motions internal damping acts as ordinary damping, and hysteresis is
+    Notes
+    -----
+    Axial and torsional motion of a straight shaft is independent of its bending and its rotation; only
+    bearings couple them. For these motions internal damping acts as ordinary damping, and hysteresis is
     neglected.
 
     Examples

@@ -319,7 +319,7 @@ class LobedTable(PadTable):
     def __post_init__(self) -> None:
         if (self.preset is None) is (not self.lobes):
             got = "neither" if self.preset is None else "both"
-            raise InputError(f"preset or lobes is required, one of both, got {got}")
+            raise InputError(f"preset or lobes is required, and not both, got {got}")
         for name, value in self.given(OF_PRESET).items():
             if self.lobes:
                 raise InputError(f"{name} must stand in each of lobes, or beside a preset, got {value!r}")
@@ -421,7 +421,7 @@ class TiltingTable(PadTable):
     def __post_init__(self) -> None:
         if (self.pad_count is None) is (not self.pivots):
             got = "neither" if self.pad_count is None else "both"
-            raise InputError(f"pad_count or pivots is required, one of both, got {got}")
+            raise InputError(f"pad_count or pivots is required, and not both, got {got}")
         if (self.pad_count is None) is not (self.loading is None):
             raise InputError(
                 f"loading must be given with pad_count, and only then, got {self.loading!r} and "

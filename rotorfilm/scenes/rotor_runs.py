@@ -240,8 +240,8 @@ def _motion(scene: Scene, parts: _Parts, times: Array) -> Trajectory:
         rotor = rotors.BaseExcitedRotor(rotor=rotor, base=scene.excitation.motion(parts.duration))
     if isinstance(parts.rotor, rotors.RigidRotor):
         return simulate(rotor, parts.bearings[""], duration=parts.duration, times=times, rtol=RTOL)
-    films = parts.bearings.values()
-    if any(getattr(film, "states", ()) or freedoms_of(film) != PLANAR for film in films):
+    given = parts.bearings.values()
+    if any(getattr(bearing, "states", ()) or freedoms_of(bearing) != PLANAR for bearing in given):
         return simulate(rotor, parts.bearings, duration=parts.duration, times=times, rtol=RTOL)
     return simulate_rotor(
         rotors.mount(rotor, parts.bearings), duration=parts.duration, times=times, rtol=RTOL
@@ -267,7 +267,7 @@ def _on_motor(table: MotorTable, parts: _Parts, times: Array) -> Trajectory:
 def _places(run: Trajectory) -> dict[str, Array]:
     """Return each displacement (x, y) over time, shape (2, n)."""
     pairs = [name for name in run.signals if name == "x" or name.endswith("_x")]
-    others = ("force_x", "moment_x", "tilt_x", "tilt_rate_x")
+    others = "force_x", "moment_x", "tilt_x", "tilt_rate_x"
     moved = [name for name in pairs if not name.endswith(others)]
     return {
         name[:-2] or "journal": np.stack([run.signals[name], run.signals[f"{name[:-1]}y"]]) for name in moved

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import chain
 from typing import Annotated, Any
 
@@ -12,7 +13,7 @@ import numpy as np
 from .. import rotors
 from ..analysis import AxialStage, DisturbingStage, Impeller
 from ..bearings.assemblies import Parallel
-from ..bearings.journal import JournalBearing
+from ..bearings.journal import JournalBearing, MapFilm, MomentCarryingJournal, ReynoldsFilm, TiltLevel
 from ..bearings.linear import LinearBearing
 from ..bearings.seal import AnnularSeal
 from ..core.errors import InputError, SceneError, brief, require_positive
@@ -139,6 +140,12 @@ class DiskTable(reading.Taking):
         return replace(solid, skew=self.skew, skew_angle=self.skew_angle)
 
 
+TILTS = {level.value.replace(" ", "_"): partial(TiltLevel, level.value) for level in TiltLevel}
+"""Levels of a tilted journal by their names in scene files."""
+
+ANGLES = reading.Several(reading.Quantity("rad"), 2, 2, "two angles, about x and about y")
+
+
 @dataclass(frozen=True, kw_only=True)
 class BearingTable:
     """An entry of `shaft.bearings`: a journal bearing, an annular seal, or springs and dampers, at a node.
@@ -161,6 +168,13 @@ class BearingTable:
         A thrust bearing with its axial load, of a viscosity; with it the shaft also moves along its axis.
     support : Support or None
         Its housing; rigid unless given.
+    tilt : TiltLevel or None
+        How a journal bearing feels the tilt of the shaft, as `full` with the film over the whole length, or
+        `second_order`; not at all unless given.
+    bush_offset : (float, float) [m]
+        Place of the bush of a journal bearing with a tilt, beside the line of the shaft.
+    bush_tilt : (float, float) [rad]
+        Rotation of that bush about x and y.
     """
 
     name: str
@@ -171,8 +185,18 @@ class BearingTable:
     seal: Annotated[AnnularSeal | None, reading.Table(SEAL)] = None
     thrust: ThrustTable | None = None
     support: rotors.Support | None = None
+    tilt: Annotated[TiltLevel | None, reading.named(TILTS)] = None
+    bush_offset: Annotated[tuple[float, float], reading.Several(reading.Quantity("m"), 2, 2)] = (0.0, 0.0)
+    bush_tilt: Annotated[tuple[float, float], ANGLES] = (0.0, 0.0)
 
     def __post_init__(self) -> None:
+        if self.tilt is not None and self.journal is None:
+            raise InputError(f"tilt must be left out without a journal, got {self.tilt}")
+        if self.tilt is None and (any(self.bush_offset) or any(self.bush_tilt)):
+            raise InputError(
+                "tilt must be given for a bush_offset or a bush_tilt, "
+                f"got {self.bush_offset!r} m and {self.bush_tilt!r} rad"
+            )
         if sum(kind is not None for kind in (self.journal, self.stiffness, self.seal, self.thrust)) != 1:
             raise InputError("journal, or else stiffness, seal or thrust, is required, got several or none")
         if self.journal is None or self.journal.has_lubricant:
@@ -187,7 +211,7 @@ class BearingTable:
             else replace(self, journal=self.journal.on(f"{where}.journal", lubricant))
         )
 
-    def build(self) -> JournalBearing | LinearBearing | AnnularSeal | Parallel:
+    def build(self) -> JournalBearing | MomentCarryingJournal | LinearBearing | AnnularSeal | Parallel:
         """Return the bearing."""
         if self.thrust is not None:
             return self.thrust.under_shaft()
@@ -195,13 +219,24 @@ class BearingTable:
             return self.seal
         if self.journal is not None:
             self.journal.require_law("a shaft")
-            return self.journal.bearing()
+            return self._tilted(self.journal.bearing())
         assert self.stiffness is not None  # checked in __post_init__
         return LinearBearing(stiffness=self.stiffness, damping=self.damping)
 
+    def _tilted(self, bearing: JournalBearing) -> JournalBearing | MomentCarryingJournal:
+        """Return a journal bearing that feels the tilt, if it does; the full level needs a film on a grid."""
+        if self.tilt is None:
+            return bearing
+        if self.tilt is TiltLevel.FULL and isinstance(bearing.film, MapFilm):
+            bearing = replace(bearing, film=ReynoldsFilm())
+        return MomentCarryingJournal(
+            bearing=bearing, level=self.tilt, bush_offset=self.bush_offset, bush_tilt=self.bush_tilt
+        )
+
     def station(self) -> rotors.Station:
         """Return where it is."""
-        return reading.made_from(rotors.Station, self, feels_tilt=self.thrust is not None)
+        feels_tilt = self.thrust is not None or self.tilt is not None
+        return reading.made_from(rotors.Station, self, feels_tilt=feels_tilt)
 
 
 class BearingList(reading.TableList):

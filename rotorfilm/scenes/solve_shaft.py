@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -12,7 +12,7 @@ import numpy as np
 
 from .. import analysis
 from ..analysis.closed_loop import driven_by_unbalance
-from ..bearings.journal import JournalBearing
+from ..bearings.journal import USUAL_CORRECTION, JournalBearing, MomentCarryingJournal
 from ..bearings.linear import LinearBearing
 from ..bearings.seal import AnnularSeal
 from ..core.answers import ISOTHERMAL
@@ -21,7 +21,6 @@ from ..core.model import Array
 from ..core.port import Reaction, freedoms_of
 from ..core.progress import Report, part_of, silent
 from ..core.readable import Drawable
-from ..core.signals import PLANAR
 from ..rotors import ShaftElement, ShaftRotor
 from .families import messages, prefixed, remarks_of
 from .journal_tables import film_remarks
@@ -131,7 +130,7 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
         title=scene.title,
         mass=rotor.mass,
         states=len(rotor.states),
-        loads=at.loads,
+        loads={name: load[:2] for name, load in at.loads.items()},
         residual=at.residual,
         critical_speeds=critical,
         threshold=threshold,
@@ -281,16 +280,42 @@ def shaft_remarks(
     stiff = {
         name: seals.get(name, LinearBearing(stiffness=STIFF))
         for name, bearing in bearings.items()
-        if freedoms_of(bearing) == PLANAR
+        if "z" not in freedoms_of(bearing)
     }
-    loads = analysis.rotor_equilibrium(rotor, stiff, speed).loads
+    at = analysis.rotor_equilibrium(rotor, stiff, speed)
     lines = list(beam_remarks(rotor))
-    for name, bearing in bearings.items():
+    for name, given in bearings.items():
+        tilted = isinstance(given, MomentCarryingJournal)
+        bearing = given.bearing if isinstance(given, MomentCarryingJournal) else given
         if isinstance(bearing, JournalBearing):
-            x, y = loads[name].tolist()
+            x, y = at.loads[name].tolist()[:2]
             found = film_remarks(bearing, oil, speed, (x, y))
+            found += () if tilted else tilt_remarks(rotor, name, bearing, at)
             lines += prefixed(f"{name}, at {speed:.4g} rad/s: ", found)
     return tuple(lines)
+
+
+def tilt_remarks(
+    rotor: ShaftRotor, name: str, bearing: JournalBearing, at: analysis.RotorEquilibrium
+) -> tuple[str, ...]:
+    """Return what the tilt of a sagging shaft would do to a bearing that leaves it out, if that matters.
+
+    The aligned film is that of a plain bearing under the same load.
+    """
+    stations = tuple(replace(one, feels_tilt=one.name == name) for one in rotor.stations)
+    tilts = replace(rotor, stations=stations).structure.tilts
+    assert tilts is not None  # of one station
+    warm = bearing.at_temperature(bearing.coldest()) if bearing.is_warming else bearing
+    sizes = {key: getattr(warm, key) for key in ("radius", "length", "clearance")}
+    plain = JournalBearing(**sizes, viscosity=warm.film_viscosity)
+    try:
+        film = analysis.equilibrium(plain, at.loads[name][:2], at.speed).minimum_film
+    except RotorfilmError:
+        return ()  # the answer says what is wrong
+    shift = 0.5 * plain.length * float(np.linalg.norm(tilts @ at.displacement))
+    correction = USUAL_CORRECTION * (shift / film) ** 2
+    numbers = {"shift": shift / plain.clearance, "share": shift / film, "correction": correction}
+    return messages(remarks_of("tilt"), {**numbers, "twice": 2.0 * correction})
 
 
 def shaft_physics(bearings: Mapping[str, Reaction]) -> str:

@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from .map_film import MapFilm as MapFilm, bearing_table
     from .mobile_map import MobileMapFilm, MobileMapTable
     from .moment_carrying_journal import (
+        USUAL_CORRECTION,
         MomentCarryingJournal as MomentCarryingJournal,
         TiltEstimate as TiltEstimate,
         TiltLevel as TiltLevel,

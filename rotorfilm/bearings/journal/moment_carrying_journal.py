@@ -145,7 +145,7 @@ class TiltEstimate(NamedTuple):
     stiffness_error: float
 
 
-USUAL = 0.57
+USUAL_CORRECTION = 0.57
 """Correction of a force over the square of the share of the film that a tilt takes, of plain bearings."""
 
 CLOSED_MOMENT_ERROR = 0.3
@@ -456,7 +456,7 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
         tilt = float(np.hypot(*place[2:]))
         aligned = float(np.min(minimum_film(self.bearing, place[:2] * self.bearing.clearance)))
         share = tilt * self.bearing.clearance / aligned
-        d = both = USUAL * share**2
+        d = both = USUAL_CORRECTION * share**2
         told = self.level is TiltLevel.SECOND_ORDER or self.tilt_map is not None
         if told and speed and np.any(place[:2]):
             force = self.bearing.force(place[:2] * self.bearing.clearance, np.zeros(2), speed)
@@ -474,7 +474,7 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
         """Return the force [N] that a tilt makes, and that of the same tilt across, to second order."""
         across = np.append(place[:2], _QUARTER_TURN[:2, :2] @ place[2:])
         found = [self._map.wrench(at, 0.5 * speed * _QUARTER_TURN @ at)[0] for at in (place, across)]
-        return np.asarray(np.hypot(*np.array(found).T[:2]) * float(self.bearing.force_scale))
+        return np.asarray(np.hypot(*np.array(found).T[:2]) * self.bearing.force_scale, dtype=float)
 
 
 class WholeFilm(NamedTuple):
@@ -498,7 +498,7 @@ class WholeFilm(NamedTuple):
     def turn(self) -> Array:
         """What makes pairs of the bearing frame of those of the film's, shape (4, 4)."""
         c, s = math.cos(self.middle), math.sin(self.middle)
-        return np.asarray(np.kron(np.eye(2), [[c, -s], [s, c]]), dtype=np.float64)
+        return np.asarray(np.kron(np.eye(2), [[c, -s], [s, c]]), dtype=float)
 
     def least(self, place: Array) -> float:
         """Return the least film over the clearance at one place (e, tau) in the bearing frame."""

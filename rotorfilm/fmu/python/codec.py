@@ -7,6 +7,7 @@ import importlib
 import math
 import sys
 from collections.abc import Iterator, Mapping
+from enum import Enum
 from types import FunctionType
 from typing import Any
 
@@ -30,7 +31,7 @@ def encode(value: Any, name: str = "model") -> Any:
     ----------
     value : Any
         A number, bool, string, None, tuple, list, numpy array of numbers, a function from the top of a
-        module, or a dataclass of such values.
+        module, a member of an enumeration, or a dataclass of such values.
     name : str
         What messages call the value, as `model.film.rupture`.
 
@@ -55,6 +56,8 @@ def encode(value: Any, name: str = "model") -> Any:
         return _encode_dataclass(value, name)
     if isinstance(value, FunctionType):
         return _encode_function(value, name)
+    if isinstance(value, Enum):
+        return {"function": f"{type(value).__module__}:{type(value).__qualname__}.{value.name}"}
     raise FmuError(
         f"{name} must be a number, bool, string, None, tuple, list, numpy array of numbers, a function or a "
         f"dataclass of such values, got {value!r} of type {type(value).__qualname__}"

@@ -354,11 +354,14 @@ def two_disks(feels_tilt):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize(("feels_tilt", "threshold"), [(False, 218.2), (True, 232.1)])
-def test_a_sagging_shaft_is_stable_to_higher_speeds(feels_tilt, threshold):
-    """L/D 0.6: thresholds of the notes, with and without moments about the equilibrium."""
+@pytest.mark.parametrize(
+    ("length", "viscosity", "feels_tilt", "threshold"),
+    [(0.06, 0.05, False, 218.2), (0.06, 0.05, True, 232.1), (0.03, 0.1, True, 219.1)],
+)
+def test_a_sagging_shaft_is_stable_to_higher_speeds(length, viscosity, feels_tilt, threshold):
+    """L/D 0.6 and 0.3: thresholds of the notes, with and without moments about the equilibrium."""
     film = ReynoldsFilm(cells=(48, 4))
-    bearing = journal(film, length=0.06, viscosity=0.05)
+    bearing = journal(film, length=length, viscosity=viscosity)
     held = rf.bearings.MomentCarryingJournal(bearing=bearing) if feels_tilt else bearing
     found = rf.rotor_threshold(two_disks(feels_tilt), dict.fromkeys(("left", "right"), held), [200.0, 245.0])
     assert found.speed == pytest.approx(threshold, rel=0.02)
