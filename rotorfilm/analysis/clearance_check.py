@@ -26,7 +26,7 @@ MOST_SCALED = 6.0
 """Largest scale factor."""
 
 ROUND_OFF = 1e-9
-"""Part of a speed by which the last one of a response may be below it."""
+"""Part of a speed by which a response may end before it."""
 
 SHARE = 0.75
 """Part of a running clearance that a vibration may take."""
@@ -135,6 +135,7 @@ def clearance_check(
     """
     speeds = _speeds(response)
     require_positive("minimum_speed", minimum_speed)
+    require_positive("maximum_speed", maximum_speed)
     limit = vibration_limit(maximum_speed)
     if not clearances:
         raise InputError("clearances must have at least one place, got none")
@@ -176,7 +177,7 @@ def _speeds(response: control.FrequencyResponseData) -> Array:
 
 
 def _operating(speeds: Array, minimum_speed: float, maximum_speed: float) -> NDArray[np.bool_]:
-    """Return which speeds are in the operating range; raise InputError where they do not reach its end."""
+    """Return which speeds are in the operating range; raise InputError where they do not cover it."""
     if minimum_speed > maximum_speed:
         raise InputError(
             f"minimum_speed must be at most maximum_speed, {maximum_speed:.6g} rad/s, got {minimum_speed:.6g}"
@@ -186,10 +187,11 @@ def _operating(speeds: Array, minimum_speed: float, maximum_speed: float) -> NDA
         raise InputError(
             f"response must have speeds from {minimum_speed:.6g} to {maximum_speed:.6g} rad/s, got none"
         )
-    if speeds.max() < (1.0 - ROUND_OFF) * maximum_speed:
+    first, last = speeds.min(), speeds.max()
+    if first > (1.0 + ROUND_OFF) * minimum_speed or last < (1.0 - ROUND_OFF) * maximum_speed:
         raise InputError(
-            f"response must have speeds up to maximum_speed, {maximum_speed:.6g} rad/s, "
-            f"got {speeds.max():.6g} rad/s as its last"
+            f"response must cover minimum_speed to maximum_speed, {minimum_speed:.6g} to {maximum_speed:.6g} "
+            f"rad/s, got {first:.6g} to {last:.6g} rad/s"
         )
     return within
 

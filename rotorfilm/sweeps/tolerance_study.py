@@ -17,6 +17,7 @@ from ..core.errors import (
     RotorfilmError,
     brief,
     require_count,
+    require_number,
     require_positive,
     warn_user,
 )
@@ -211,6 +212,8 @@ def tolerance_study(
 
 def _read(tables: Mapping[str, Any], key: str, tolerance: Any) -> tuple[float, float]:
     """Return the value of a key and its largest deviation, in SI."""
+    if not isinstance(key, str):
+        raise InputError(f"tolerances must have dotted keys of the scene, got {brief(key)}")
     value: Any = tables
     for part in key.split("."):
         try:
@@ -255,10 +258,11 @@ def _draws(
                 f"tolerances must have names of nominal values, {', '.join(nominal)}, got {name!r}"
             )
         require_positive(f"tolerances[{name!r}]", tolerance)
-        if 0.0 < abs(nominal[name]) <= tolerance:
+        size = abs(require_number(f"nominal[{name!r}]", nominal[name]))
+        if 0.0 < size <= tolerance:
             raise InputError(
-                f"tolerances[{name!r}] must be smaller than the nominal value {nominal[name]:.6g}, "
-                f"whose sign it would change, got {tolerance:.6g}"
+                f"tolerances[{name!r}] must be below {size:.6g}, the size of the nominal value, so that no "
+                f"sign changes, got {tolerance:.6g}"
             )
         ends = np.zeros(2 * len(tolerances))
         ends[2 * k : 2 * k + 2] = -1.0, 1.0

@@ -159,7 +159,9 @@ def test_clearances_are_compared_with_the_scaled_response():
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"maximum_speed": 13000.0 * RPM}, "response must have speeds up to maximum_speed"),
+        ({"maximum_speed": 13000.0 * RPM}, "response must cover minimum_speed to maximum_speed"),
+        ({"minimum_speed": 3000.0 * RPM}, "response must cover minimum_speed to maximum_speed"),
+        ({"maximum_speed": np.nan}, "maximum_speed must be finite and positive"),
         ({"minimum_speed": -200.0}, "minimum_speed must be finite and positive"),
         ({"minimum_speed": 12500.0 * RPM}, "minimum_speed must be at most maximum_speed"),
         ({"response": 5}, "response must be a control.FrequencyResponseData, got 5"),
@@ -211,8 +213,12 @@ def test_samples_that_are_not_finite_are_failures():
 
 
 def test_deviations_of_studies_keep_the_signs_and_the_seed_is_a_count():
-    with pytest.raises(rf.InputError, match=r"tolerances\['a'\] must be smaller than the nominal value 1"):
+    with pytest.raises(
+        rf.InputError, match=r"tolerances\['a'\] must be below 1, the size of the nominal value"
+    ):
         scatter_study(lambda a: a, {"a": 1.0}, {"a": 2.0})
+    with pytest.raises(rf.InputError, match=r"nominal\['a'\] must be a single finite number"):
+        scatter_study(lambda a: a, {"a": np.nan}, {"a": 2.0})
     with pytest.raises(rf.InputError, match="seed must be an integer, at least 0, got -1"):
         scatter_study(lambda a: a, {"a": 1.0}, {"a": 0.5}, seed=-1)
     assert scatter_study(lambda a: a, {"a": 0.0}, {"a": 2.0}).effects == {"a": (-2.0, 2.0)}
@@ -245,7 +251,8 @@ def test_a_study_of_tolerances_of_a_scene_has_units_and_refuses_what_is_no_quant
             r"tolerances\['journal.clearance'\]: quantity must be measured in m",
         ),
         ({"journal.clearance": None}, r"tolerances\['journal.clearance'\] must be a number or a string"),
-        ({"journal.clearance": "150 %"}, r"tolerances\['journal.clearance'\] must be smaller than"),
+        ({"journal.clearance": "150 %"}, r"tolerances\['journal.clearance'\] must be below 0.0001"),
+        ({5: 1}, "dotted keys of the scene, got 5"),
     ):
         with pytest.raises(rf.InputError, match=message):
             tolerance_study(scene, wrong, samples=4)
