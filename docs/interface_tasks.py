@@ -53,6 +53,7 @@ TASKS = {
         "rotors",
         "scenes.ross",
     ),
+    "Results and rotors in files": ("core.saved_results", "scenes.save_scene"),
     "Motion over time": (
         "analysis.compiled_march",
         "core.results.Trajectory",

@@ -62,7 +62,7 @@ def test_every_row_leads_to_a_public_name_or_says_that_it_is_absent():
 def test_what_is_absent_is_said_to_be_not_covered():
     absent = re.findall(r"^\| (.*?) \| absent", ELEMENTS, re.MULTILINE)
     said = read("docs/accuracy.md").partition("\n## Not covered")[2].lower()
-    assert len(absent) >= 17
+    assert len(absent) >= 16
     for words in absent:
         assert words.split(",")[0].lower() in said, words
 

@@ -46,7 +46,7 @@ def test_readme_is_short():
     assert len(TEXT.splitlines()) <= 150
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/own_bearing.md", "docs/recipes.md"])
+@pytest.mark.parametrize("page", ["README.md", "docs/start.md", "docs/own_bearing.md", "docs/recipes.md"])
 def test_every_snippet_prints_its_number(page, tmp_path):
     shutil.copytree(ROOT / "examples", tmp_path / "examples")
     codes = snippets((ROOT / page).read_text(encoding="utf-8"))
@@ -72,7 +72,7 @@ def test_every_job_has_one_snippet_that_ends_in_a_number(title, code):
 def test_every_job_of_the_table_has_its_snippet():
     jobs = re.findall(r"\]\(#([\w-]+)\)", TEXT)
     assert jobs == [anchor(title) for title, _ in SNIPPETS]
-    assert len(jobs) == 10
+    assert len(jobs) == 6
 
 
 @pytest.mark.parametrize("target", sorted(set(re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", TEXT))))
@@ -83,8 +83,8 @@ def test_links_lead_somewhere(target):
 JOBS = re.findall(r"^\| .*?\]\((\S+?)\)", (DOCS / "jobs.md").read_text(encoding="utf-8"), re.MULTILINE)
 
 
-def test_there_are_eight_jobs():
-    assert len(JOBS) == len(set(JOBS)) == 8
+def test_there_are_twenty_jobs():
+    assert len(JOBS) == len(set(JOBS)) == 20
 
 
 @pytest.mark.parametrize("target", JOBS)
@@ -99,7 +99,8 @@ def test_a_job_is_short_and_ends_in_a_number(target):
         )
         text = snippets(text)[0]
         assert shown(text)
-    assert code_lines(text) <= MOST_LINES
+    eleven = JOBS.index(target) < 11  # they build their machine and draw pictures too
+    assert code_lines(text) <= (2 if eleven else 1) * MOST_LINES
     assert text.splitlines()[-1].startswith("print(")
 
 

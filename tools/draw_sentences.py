@@ -1,4 +1,4 @@
-"""Print random sentences of the pages and random docstrings of public objects, to read them as a new user would.
+"""Print random sentences of the pages and random docstrings of public objects, to read them as a newcomer.
 
 Example: python tools/draw_sentences.py --seed 1
 """

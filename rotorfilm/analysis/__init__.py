@@ -55,6 +55,7 @@ if TYPE_CHECKING:
         base_response as base_response,
         base_system as base_system,
         closed_loop as closed_loop,
+        receptance as receptance,
         rotor_system as rotor_system,
         rotor_transmissibility as rotor_transmissibility,
         transmissibility as transmissibility,

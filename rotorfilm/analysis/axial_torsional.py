@@ -127,8 +127,10 @@ def axial_modes(
     InputError
         If a bearing is on no node, or a coupling has no stiffness.
 
-    Notes ----- Each element has an internal degree of freedom, so frequencies converge at fourth order in the
-    element length. The axial motion of a straight shaft does not depend on its bending and its rotation.
+    Notes
+    -----
+    Each element has an internal degree of freedom, so frequencies converge at fourth order in the element
+    length. The axial motion of a straight shaft does not depend on its bending and its rotation.
     """
     return _modes(axial_chain(rotor.elements, rotor.disks), rotor, bearings, count)
 

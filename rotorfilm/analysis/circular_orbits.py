@@ -218,7 +218,7 @@ class OrbitsOverSpeed(Drawable):
     _tabled: ClassVar[tuple[str, ...]] = ("orbits",)
 
     def to_table(self) -> ResultTable:
-        """Return the orbits, one a row."""
+        """Return a table with one row for each orbit."""
         return table_of(self.orbits, "orbits") if self.orbits else ResultTable(())
 
     def _pages(self) -> tuple[ResultTable, ...]:

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..core.errors import InputError, require_positive
+from ..core.errors import InputError, brief, require_finite, require_positive
 from ..core.frames import Column, ResultTable
 from ..core.inputs import arguments
 from ..core.model import Array
@@ -23,6 +24,9 @@ LIMIT, AT_SPEED = 25.4e-6, 12000.0 * math.pi / 30.0
 
 MOST_SCALED = 6.0
 """Largest scale factor."""
+
+ROUND_OFF = 1e-9
+"""Part of a speed by which a response may end before it."""
 
 SHARE = 0.75
 """Part of a running clearance that a vibration may take."""
@@ -108,7 +112,8 @@ def clearance_check(
     Parameters
     ----------
     response : control.FrequencyResponseData
-        As `unbalance_response` returns it, over all speeds up to the trip speed.
+        As `unbalance_response` returns it, over all speeds up to the trip speed. It includes the operating
+        range.
     clearances : mapping of str to float [m]
         Minimum radial running clearance by the names of bearings and probes of the response.
     minimum_speed, maximum_speed : float [rad/s]
@@ -128,22 +133,22 @@ def clearance_check(
     of 6 at most. It then takes 75 % of each diametral running clearance at most. ROSS 3.1 has A_vl without
     the root and its upper end, and compares peak-to-peak amplitudes with radial clearances.
     """
-    speeds = np.asarray(response.frequency)
-    within = (speeds >= minimum_speed) & (speeds <= maximum_speed)
+    speeds = _speeds(response)
+    require_positive("minimum_speed", minimum_speed)
+    require_positive("maximum_speed", maximum_speed)
+    limit = vibration_limit(maximum_speed)
     if not clearances:
         raise InputError("clearances must have at least one place, got none")
     for name, clearance in clearances.items():
         require_positive(f"clearances[{name!r}]", clearance)
-    if not within.any():
-        raise InputError(
-            f"response must have speeds from {minimum_speed:.6g} to {maximum_speed:.6g} rad/s, got none"
-        )
-    limit = vibration_limit(maximum_speed)
-    watched = [peak_to_peak(response, name)[within].max() for name in probes or clearances]
-    if not max(watched) > 0.0:
+    within = _operating(speeds, minimum_speed, maximum_speed)
+    watched = list(probes or clearances)
+    found = {name: peak_to_peak(response, name) for name in (*clearances, *watched)}
+    largest = max(found[name][within].max() for name in watched)
+    if not largest > 0.0:
         raise InputError("response must be that to an unbalance, got no vibration at the probes")
-    scale = min(limit / max(watched), MOST_SCALED)
-    curves = scale * np.array([peak_to_peak(response, name) for name in clearances])
+    scale = min(limit / largest, MOST_SCALED)
+    curves = scale * np.array([found[name] for name in clearances])
     vibration, room = curves.max(axis=1), 2.0 * np.array(list(clearances.values()))
     shares = vibration / room
     k = int(np.argmax(shares))
@@ -163,12 +168,42 @@ def clearance_check(
     )
 
 
+def _speeds(response: control.FrequencyResponseData) -> Array:
+    """Return the speeds of a response [rad/s]; raise InputError if it is none."""
+    if not hasattr(response, "frdata"):
+        raise InputError(f"response must be a control.FrequencyResponseData, got {brief(response)}")
+    require_finite("response", np.abs(response.frdata))
+    return np.asarray(response.frequency)
+
+
+def _operating(speeds: Array, minimum_speed: float, maximum_speed: float) -> NDArray[np.bool_]:
+    """Return which speeds are in the operating range; raise InputError where they do not cover it."""
+    if minimum_speed > maximum_speed:
+        raise InputError(
+            f"minimum_speed must be at most maximum_speed, {maximum_speed:.6g} rad/s, got {minimum_speed:.6g}"
+        )
+    within = (speeds >= minimum_speed) & (speeds <= maximum_speed)
+    if not within.any():
+        raise InputError(
+            f"response must have speeds from {minimum_speed:.6g} to {maximum_speed:.6g} rad/s, got none"
+        )
+    first, last = speeds.min(), speeds.max()
+    if first > (1.0 + ROUND_OFF) * minimum_speed or last < (1.0 - ROUND_OFF) * maximum_speed:
+        raise InputError(
+            f"response must cover minimum_speed to maximum_speed, {minimum_speed:.6g} to {maximum_speed:.6g} "
+            f"rad/s, got {first:.6g} to {last:.6g} rad/s"
+        )
+    return within
+
+
 def peak_to_peak(response: control.FrequencyResponseData, name: str) -> Array:
     """Return the longer axis of the orbits of a place over the frequencies of a response [m]."""
     known, table = list(response.output_labels), np.asarray(response.frdata)
     missing = [label for label in (f"{name}_x", f"{name}_y") if label not in known]
     if missing:
-        raise InputError(f"places must be in the response, {', '.join(known)}, got {missing[0]!r}")
+        raise InputError(
+            f"clearances and probes must have places of the response, {', '.join(known)}, got {missing[0]!r}"
+        )
     x, y = (table[known.index(f"{name}_{axis}"), 0] for axis in "xy")
     # an orbit is a forward and a backward circle, whose radii add up along its longer axis
     return np.asarray(np.abs(x + 1j * y) + np.abs(x - 1j * y))

@@ -24,13 +24,13 @@ from ..core.model import Array, Dynamic, Linearization, Model
 from ..core.port import Bearings, Reaction, freedoms_of, inertial, mass_of, require_reaction, require_turning
 from ..core.results import Coefficients, Equilibrium, InertialCoefficients, added_mass
 from ..core.signals import force_names, indices, names
-from ..rotors import FlexibleRotor, require_flexible, translations
+from ..rotors import FlexibleRotor, ShaftRotor, Station, require_flexible, translations
 from ..rotors.mounted import Mount, join
 from ..rotors.structure import force_rows, freedom_rows, output_rows, station_name, station_names
 from .equilibrium import equilibrium
 from .linearize import control_system, film_states, linearize
 from .modal_reduction import SOLVED, TOLERANCE, Condensed, counted, models, tally, with_work
-from .rotor_equilibrium import RotorEquilibrium, rest
+from .rotor_equilibrium import RotorEquilibrium, rest, rotor_equilibrium
 from .rotor_matrices import LeftOut, frequency_dependent_films, rest_near, second_order, small_motion
 from .rotor_modes import first_growing
 from .threads import one_blas_thread
@@ -233,6 +233,49 @@ def rotor_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = 
     return _state_space(rotor, at, force_rows(rotor.structure).T, names(rotor.inputs), name)
 
 
+@one_blas_thread
+@arguments
+def receptance(
+    rotor: ShaftRotor, bearings: Bearings, speed: float, frequencies: ArrayLike, nodes: Sequence[int]
+) -> control.FrequencyResponseData:
+    """Return the displacements of nodes by harmonic forces at nodes, of a rotor that turns in its bearings.
+
+    Parameters
+    ----------
+    rotor : ShaftRotor
+    bearings : mapping of str to Reaction
+        By the name of the station; each is linearized at the equilibrium of the speed.
+    speed : float [rad/s]
+        Of the rotor, whatever its own is.
+    frequencies : array_like, shape (n,) [rad/s]
+        Of the forces, positive and rising.
+    nodes : sequence of int
+        Where the forces act and the displacements are.
+
+    Returns
+    -------
+    control.FrequencyResponseData
+        Inputs `node_3_force_x`, `node_3_force_y` and so on [N], outputs `node_3_x`, `node_3_y` [m].
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule, or as `rotor_system`.
+    EquilibriumError
+        If there is no equilibrium at the speed.
+    """
+    grid, places = checked_speeds(frequencies, "frequencies"), [f"node_{node}" for node in nodes]
+    further = (Station(node=node, name=name) for node, name in zip(nodes, places, strict=True))
+    whole = replace(rotor, speed=speed, stations=(*rotor.stations, *further))
+    system = rotor_system(whole, rotor_equilibrium(whole, bearings, speed))
+    outputs = [f"{name}_{axis}" for name in places for axis in "xy"]
+    inputs = [f"{name}_force_{axis}" for name in places for axis in "xy"]
+    rows = [system.output_labels.index(name) for name in outputs]
+    columns = [system.input_labels.index(name) for name in inputs]
+    values = system(1j * grid, squeeze=False)[np.ix_(rows, columns)]
+    return frequency_response(list(np.moveaxis(values, -1, 0)), grid, inputs, outputs, "receptance")
+
+
 BASE = ("base_acceleration_x", "base_acceleration_y")
 """Names of what the ground does to a rotor."""
 
@@ -254,8 +297,8 @@ def base_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = N
     -------
     control.StateSpace
         Inputs: `base_acceleration_x`, `base_acceleration_y` of the ground, and of all housings with it
-        [m/s2]. Outputs and states: as in `rotor_system`, displacements from the ground. With its counters
-        `work`, and its errors.
+        [m/s2]. Outputs and states: as in `rotor_system`, displacements from the ground. The attribute `work`
+        has the counters of the reduction, and `errors` its errors.
     """
     return _state_space(rotor, at, -rotor.structure.mass @ translations(rotor), BASE, name)
 

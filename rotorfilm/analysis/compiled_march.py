@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.linalg import block_diag
 from scipy.special import roots_jacobi
 
 from ..core.errors import (
@@ -27,21 +28,27 @@ from ..core.errors import (
 from ..core.inputs import arguments
 from ..core.limits import STEPS as MOST_STEPS, TURNS, require_at_most
 from ..core.model import Array, Dynamic, breakpoints
+from ..core.port import is_constant, static_slopes
 from ..core.results import Trajectory
 from ..core.signals import indices, names, units
 from ..native.library import loops
 from ..native.structs import constant, structure
 from ..rotors import MountedRotor, SpeedProfile
 from .compiled_rotor import (
+    GOOD_CONDITION,
+    GOOD_SIZE,
     Complex,
     JournalFilms,
     ModalRotor,
     Parts,
+    journal_rows,
     largest_difference,
     modal_rotor,
+    modes,
     raise_foreign,
     spin_rates,
     starts,
+    state_matrices,
     take_apart,
     warn_beyond,
 )
@@ -71,6 +78,8 @@ def simulate_rotor(
 
     The shaft is integrated exactly in its modes, and the film forces by collocation of order 7 with their
     exact derivatives (`native/loops/march.h`), all of it compiled. A step costs some ten microseconds.
+
+    On springs and dampers at constant speed the motion is exact at every sample, and no steps are taken.
 
     A `SpeedProfile` may change the gyroscopic effect and the rotating damping too. A shaft of many elements
     (more than 60 coordinates) is reduced to its lowest mode shapes. The run is repeated with shapes up to
@@ -176,6 +185,8 @@ def _run(
     rtol: float,
     max_step: float,
 ) -> Trajectory:
+    if (exact := linear_states(parts, state, grid)) is not None:
+        return _trajectory(mounted, grid, [exact], parts, dict.fromkeys(_COUNTERS, 0))
     rate = parts.nominal_speed or rate_of(modal_rotor(parts, 0.0))
     longest = min(max_step, duration, LONGEST_TURN * 2.0 * np.pi / rate)
     run = RunUp(parts, state, duration, partial(March, rtol=rtol, longest=longest, duration=duration))
@@ -186,34 +197,70 @@ def _run(
         kept.append(failure.partial)
         raise type(failure)(str(failure), _kept_trajectory(mounted, grid, kept, run)) from failure
     run.warn()
-    return _trajectory(mounted, grid, kept, run)
+    return _trajectory(mounted, grid, kept, parts, run.work)
 
 
 def _kept_trajectory(mounted: MountedRotor, grid: Array, kept: list[Array], run: RunUp) -> Trajectory:
     """Return the trajectory of a failed run, without its last state where a film has no force there."""
     try:
-        return _trajectory(mounted, grid, kept, run)
+        return _trajectory(mounted, grid, kept, run.parts, run.work)
     except InputError:
-        return _trajectory(mounted, grid, [np.concatenate(kept)[:-1]], run)
+        return _trajectory(mounted, grid, [np.concatenate(kept)[:-1]], run.parts, run.work)
 
 
-def _trajectory(mounted: MountedRotor, grid: Array, kept: list[Array], run: RunUp) -> Trajectory:
+def _trajectory(
+    mounted: MountedRotor, grid: Array, kept: list[Array], parts: Parts, work: dict[str, int]
+) -> Trajectory:
     states = np.concatenate(kept) if kept else np.zeros((0, len(mounted.states)))
     time = grid[: len(states)]
     rotor = mounted.bare
     # Displacements and rates are linear in the state, the last output is the speed.
     rows = rotor.linearization(0.0, rotor.initial_state, np.zeros(len(rotor.inputs))).C
     outputs = rows @ states.T
-    outputs[-1] = [run.parts.profile.speed(t) for t in time]
+    steady = len(set(parts.profile.speeds)) == 1
+    outputs[-1] = parts.profile.speeds[0] if steady else [parts.profile.speed(t) for t in time]
     signals = dict(zip(names(rotor.outputs), outputs, strict=True))
-    parts = run.parts
     for name, bearing in zip(parts.names, parts.bearings, strict=True):
         prefix = f"{name}_" if name else ""
         x, y, vx, vy = (signals[prefix + key] for key in ("x", "y", "vx", "vy"))
         force = bearing.force(np.stack([x, y]), np.stack([vx, vy]), signals["speed"])
         signals[prefix + "force_x"], signals[prefix + "force_y"] = force
     known = {**dict.fromkeys(signals, "N"), **units(rotor.outputs)}
-    return Trajectory(time=time, signals=signals, work=run.work, units=known)
+    return Trajectory(time=time, signals=signals, work=work, units=known)
+
+
+# A rotor on springs and dampers at constant speed: its motion is known at any time without a step.
+
+
+def linear_states(parts: Parts, state: Array, grid: Array) -> Array | None:
+    """Return the states at the times of a grid, shape (n, 2 N), of a rotor whose equations are linear.
+
+    With A V = V Lambda, x(t) = x0 + Re(p exp(i w t)) + Re(V exp(Lambda t) c), x0 at rest, p the response to
+    the unbalance. None where speed or bearings change, or the modes do not say the motion to 1e-9.
+    """
+    steady = parts.base is None and len(set(parts.profile.speeds)) == 1
+    if not steady or not all(map(is_constant, parts.bearings)):
+        return None
+    speed, none = parts.speed, np.zeros(2)
+    A, B, weight = state_matrices(parts, speed)
+    slopes = [static_slopes(bearing, none, none, speed)[:, :4] for bearing in parts.bearings]
+    A = A + B[:, :-2] @ (block_diag(*slopes) @ journal_rows(parts))
+    turn = abs(speed)
+    values, shapes, inverse, condition = modes(A, np.repeat([1.0, turn or 1.0], len(A) // 2))
+    if not condition < GOOD_CONDITION * max(1.0, len(A) / GOOD_SIZE) ** 2:
+        return None
+    turning = B[:, -2:] @ (speed**2 * np.array([1.0, -1.0j * np.sign(speed)]))
+    try:
+        rest = -np.linalg.solve(A, weight)
+        driven = np.linalg.solve(1j * turn * np.eye(len(A)) - A, turning)
+    except np.linalg.LinAlgError:
+        return None
+    begun = inverse @ (state - rest - driven.real)
+    with np.errstate(over="ignore", invalid="ignore"):
+        waves = np.exp(np.outer(grid, np.append(values, 1j * turn)))
+        columns = np.column_stack([shapes * begun, driven])
+        found = rest + waves.real @ columns.real.T - waves.imag @ columns.imag.T
+    return np.asarray(found) if np.isfinite(found).all() else None
 
 
 # Steps of a rotor in modes under forces that are polynomials of time (`native/loops/collocation.h`).

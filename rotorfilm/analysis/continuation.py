@@ -42,6 +42,7 @@ from .harmonic_balance import (
 from .periodic_orbit import (
     HARMONICS,
     TRUNCATION,
+    WHOLE,
     PeriodicOrbit,
     Rest,
     finished,
@@ -177,14 +178,18 @@ def continue_orbits(
     low, high = (float(value) for value in require_finite("bounds", bounds))
     if not low < high:
         raise InputError(f"bounds must rise, got {bounds!r}")
-    curve = Curve(family=family, scale=high - low)
-    if isinstance(start, HopfPoint):
-        point = _from_hopf(curve, start)
-    elif parameter is None:
+    if parameter is None and not isinstance(start, HopfPoint):
         raise InputError("parameter must be given with an orbit to start from")
-    else:
-        point = _from_orbit(curve, start, float(parameter), direction)
-    return _followed(curve, point, (low, high), largest_step, most, tolerance)
+    for level in range(WHOLE + 1):
+        curve = Curve(family=family, scale=high - low, level=level)
+        if isinstance(start, HopfPoint):
+            point = _from_hopf(curve, start)
+        else:
+            point = _from_orbit(curve, start, float(parameter or 0.0), direction)
+        found = _followed(curve, point, (low, high), largest_step, most, tolerance)
+        if all(orbit.residual <= tolerance for orbit in found.orbits):
+            break
+    return found
 
 
 def _from_orbit(curve: Curve, orbit: PeriodicOrbit, parameter: float, direction: int) -> Point:
@@ -352,14 +357,18 @@ class Curve(NamedTuple):
         Function that returns the rotor in its bearings for a value of the parameter.
     scale : float
         Range of the parameter, which makes it comparable with clearances.
+    level : int
+        Of the shapes of the rotors, as in `orbit_rotor`.
     """
 
     family: Family
     scale: float
+    level: int = 0
 
     def balance(self, parameter: float, harmonics: int, periods: int) -> Balance[PeriodicRotor]:
         """Return the equations at a parameter."""
-        return Balance(rotor=orbit_rotor(self.family(parameter)), harmonics=harmonics, periods=periods)
+        rotor = orbit_rotor(self.family(parameter), self.level)
+        return Balance(rotor=rotor, harmonics=harmonics, periods=periods)
 
     def point(self, solution: Solution[PeriodicRotor], parameter: float, before: Array | None) -> Point:
         """Return a solution as a point; its tangent goes on as the one before, else with the parameter."""
@@ -460,14 +469,15 @@ class Curve(NamedTuple):
 
     def _by_parameter(self, solution: Solution[PeriodicRotor], parameter: float) -> Array:
         harmonics, periods = solution.balance.harmonics, solution.balance.periods
-        ends = []
-        for side in (-1.0, 1.0):
-            balance = self.balance(parameter + side * RELATIVE_STEP * self.scale, harmonics, periods)
-            values = balance.values(solution.series, _frequency(balance, solution.frequency))
-            # The bearing's clearance may be the parameter: one unit for both sides.
-            ends.append(values * np.repeat(balance.units, 2 * harmonics + 1))
+        further = self.balance(parameter + RELATIVE_STEP * self.scale, harmonics, periods)
+        # The bearing's clearance may be the parameter: one unit for both.
+        ends = [
+            balance.values(solution.series, _frequency(balance, solution.frequency))
+            * np.repeat(balance.units, 2 * harmonics + 1)
+            for balance in (solution.balance, further)
+        ]
         units = np.repeat(solution.balance.units, 2 * harmonics + 1)
-        return np.asarray((ends[1] - ends[0]) / (2.0 * RELATIVE_STEP) / units)
+        return np.asarray((ends[1] - ends[0]) / RELATIVE_STEP / units)
 
 
 def _frequency(balance: Balance[PeriodicRotor], frequency: float) -> float:

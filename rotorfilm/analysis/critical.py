@@ -21,6 +21,7 @@ from ..core.results import added_mass
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, freedom_rows, in_planes
 from .modal_reduction import (
+    FEW,
     MARGIN,
     TOLERANCE,
     ArrayWithOperations,
@@ -53,9 +54,6 @@ from .threads import one_blas_thread
 
 REACH = 1.5
 """Highest frequency to which shapes are kept / top speed."""
-
-FEW = 24
-"""Coordinates up to which no shape is left out of the proof; what it finds is solved in all of them."""
 
 HALVINGS = 14
 """How often a step is halved in which the way of a whirl is not proven.

@@ -104,11 +104,13 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
         If the load is beyond what the film carries at eccentricity ratio 0.9999, or where pads touch, if the
         film carries nothing (no wedge at zero speed), or if the search does not converge.
 
-    Notes ----- Newton's method with the exact Jacobian in s = log(chi / (1 - chi)), chi = |position| /
-    clearance, and the angle phi of the position. The residual is (log(|F| / |load|), angle from -load to F).
-    A film force grows as a power of chi near the center and of 1 - chi near the wall: the equations are
-    nearly linear. Ball bearings, whose force may be zero over a range of positions, find their equilibrium
-    themselves (`core.port`).
+    Notes
+    -----
+    Newton's method with the exact Jacobian in s = log(chi / (1 - chi)), chi = |position| / clearance, and the
+    angle phi of the position. The residual is (log(|F| / |load|), angle from -load to F). A film force grows
+    as a power of chi near the center and of 1 - chi near the wall: the equations are nearly linear. Ball
+    bearings, whose force may be zero over a range of positions, find their equilibrium themselves
+    (`core.port`).
     """
     require_reaction("reaction", reaction, heavy=True)
     freedoms = freedoms_of(reaction)
@@ -315,7 +317,7 @@ def _why_not(load: Array, target: StaticTarget, best: StaticPoint) -> str:
         )
     given = f"got load {load.tolist()} N with |load| = {math.hypot(*load):.6g} N"
     if not math.isfinite(best.norm):
-        return f"speed must make the film carry load: at speed {speed!r} rad/s it carries none, {given}"
+        return f"speed must let the film carry the load: at speed {speed!r} rad/s it carries none, {given}"
     if best.s == LARGEST_S and best.ratio < 0.0:
         limit = math.exp(best.ratio) * math.hypot(*load)
         return (

@@ -112,6 +112,10 @@ class PeriodicRotor(HarmonicRotor, Protocol):
     def state(self, series: Array, frequency: float, periods: int) -> Array:
         """Return the state of rotor and bearings at phase 0 of an orbit."""
 
+    def neglected(self, balance: Any, series: Array, frequency: float) -> float:
+        """Return the imbalance of an orbit by the shapes that were left out, in units; 0 where none were."""
+        ...
+
     def multipliers(self, series: Array, frequency: float) -> Complex:
         """Return the Floquet multipliers of an orbit, the largest first."""
 

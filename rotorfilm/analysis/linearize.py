@@ -233,9 +233,11 @@ def film_system(
     ConvergenceError
         If 32 states for each direction are not enough.
 
-    Notes ----- K(s) is fitted by least squares in Laguerre functions of s, at frequencies up to the highest,
-    with K(0) exact: oil that crosses a cavity acts as a delay, and the functions converge to it at a
-    geometric rate. The fitted system is always stable, and its damping in fast motion is positive.
+    Notes
+    -----
+    K(s) is fitted by least squares in Laguerre functions of s, at frequencies up to the highest, with K(0)
+    exact: oil that crosses a cavity acts as a delay, and the functions converge to it at a geometric rate.
+    The fitted system is always stable, and its damping in fast motion is positive.
     """
     require_reaction("film", film, heavy=True, planar=True)
     if not states_rest(film):

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+import pickle
 import warnings
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
+from hashlib import blake2b
 from itertools import count
 from typing import Any, NamedTuple, TypeVar
 
@@ -60,6 +62,28 @@ class BandedCholesky:
             return np.asarray(self.solve(loads.real) + 1j * self.solve(loads.imag))
         found = np.empty(loads.shape)
         found[self.order] = cho_solve_banded((self.factor, False), loads[self.order], check_finite=False)
+        return found
+
+
+class BandedMotion:
+    """s^2 M + s C + K of sparse matrices, to be factored at any s."""
+
+    def __init__(self, mass: Any, damping: Any, stiffness: Any) -> None:
+        pattern = abs(mass) + abs(damping) + abs(stiffness)
+        self.order = band_order(pattern + pattern.T)
+        placed = [_in_order(part, self.order) for part in (mass, damping, stiffness)]
+        self.width = max(width for *_, width in placed)
+        self.bands = np.zeros((3, 3 * self.width + 1, len(self.order)))
+        for band, (rows, columns, values, _) in zip(self.bands, placed, strict=True):
+            band[2 * self.width + rows - columns, columns] = values
+
+    def solve(self, s: complex, loads: np.ndarray) -> np.ndarray:
+        """Return the displacements under loads, shape (N, m), that go with e^(s t)."""
+        tally("factorizations")
+        band = (s * s) * self.bands[0] + s * self.bands[1] + self.bands[2] + 0.0j
+        factor, pivots, _ = zgbtrf(band, self.width, self.width, overwrite_ab=True)
+        found = np.empty(loads.shape, dtype=complex)
+        found[self.order] = zgbtrs(factor, self.width, self.width, loads[self.order], pivots)[0]
         return found
 
 
@@ -218,7 +242,13 @@ MARGIN = 2.0
 SMALL = 60
 """Coordinates up to which nothing is left out of an answer that has the error of its shapes."""
 
+FEW = 24
+"""The same of what is solved, or whose error is found, in all coordinates in the end."""
+
 _FIRST = 6
+
+_SHARED = 16
+"""Models that rotors of the same matrices share."""
 
 USUAL = 10
 """Modes in each plane that are answered, unless a range of frequencies is named."""
@@ -270,6 +300,9 @@ class Condensed(NamedTuple):
         return np.split(forces, (n, 2 * n))
 
 
+_shared: dict[tuple[int, bytes], Condensed] = {}
+
+
 def exact_structure(rotor: FlexibleRotor) -> Structure:
     """Return all of the matrices of a rotor: dense ones of a small rotor, else as they were assembled."""
     return rotor.assembly if len(rotor.assembly.weight) > WHOLE else rotor.structure
@@ -307,14 +340,22 @@ def models(rotor: FlexibleRotor, frequency: float, small: int = SMALL) -> Iterat
 
 
 def _cached_model(rotor: FlexibleRotor, exponent: int) -> Condensed | None:
-    """Return the rotor in the modes below 2^exponent rad/s; None where its stiffness is not positive."""
+    """Return the rotor in the modes below 2^exponent rad/s; None where its stiffness is not positive.
+
+    Rotors of the same matrices, as those of one shaft at many speeds, share it.
+    """
     known = rotor.cache
     if exponent not in known:
-        try:
-            space = shape_space(rotor.assembly, 2.0**exponent)
-        except np.linalg.LinAlgError:
-            return None
-        known[exponent] = Condensed(rotor.assembly, projected(rotor.assembly, space.shapes), space)
+        key = exponent, blake2b(pickle.dumps(rotor.assembly)).digest()
+        if key not in _shared:
+            try:
+                space = shape_space(rotor.assembly, 2.0**exponent)
+            except np.linalg.LinAlgError:
+                return None
+            _shared[key] = Condensed(rotor.assembly, projected(rotor.assembly, space.shapes), space)
+            while len(_shared) > _SHARED:
+                _shared.pop(next(iter(_shared)))
+        known[exponent] = _shared[key]
     found: Condensed = known[exponent]
     return found
 

@@ -11,6 +11,7 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy import sparse
 
 from ..core.errors import (
     ContactError,
@@ -35,8 +36,8 @@ from ..core.port import (
 from ..core.readable import Drawable, Readable
 from ..core.results import Trajectory
 from ..core.signals import PLANAR
-from ..rotors import FlexibleRotor, MountedRotor, RigidRotor
-from ..rotors.structure import Structure, station_name
+from ..rotors import FlexibleRotor, MountedRotor, RigidRotor, mount
+from ..rotors.structure import MatrixRotor, Structure, freedom_rows, station_name
 from .coefficients import film_coefficients
 from .compiled_march import LONGEST_TURN, March, ModalArrays
 from .compiled_rotor import Complex, ModalRotor, Parts, journal_rows, modal_rotor, modes, take_apart
@@ -63,6 +64,7 @@ from .harmonic_balance import (
     truncation_of,
     with_wave,
 )
+from .modal_reduction import FEW, MARGIN, BandedMotion, Condensed, models
 from .port_orbits import PortRotor, carried_over, step_phases
 from .rotor_equilibrium import RotorEquilibrium, rotor_equilibrium
 from .rotor_matrices import second_order, with_hysteresis
@@ -73,6 +75,12 @@ HARMONICS = 8
 
 TRUNCATION = 1e-7
 """Largest of the last harmonics / clearance at which a series is long enough."""
+
+WHOLE = 3
+"""Levels of shapes that are tried before the whole rotor."""
+
+ABOVE = 4.0
+"""Frequency to which shapes are kept / that of the level before; at first it is that of `HARMONICS`."""
 
 BALANCED = 1e-3
 """Where the search for an orbit ends, in tolerances."""
@@ -99,10 +107,12 @@ class PeriodicOrbit(Drawable):
         left_tilt_x [rad]; empty where bearings react to x and y only.
     state : ndarray, shape (n_states,)
         State of the whole rotor at t = 0.
-    multipliers : ndarray of complex, shape (n_states,)
+    multipliers : ndarray of complex, shape (n,)
         Floquet multipliers, the largest first; for free whirl one of them is 1. Empty without `stability`.
+        A shaft of more than 24 coordinates has those of motion that its lower modes make, other rotors
+        have one for each state.
     residual : float [1]
-        Remaining imbalance of the equations / clearance.
+        Remaining imbalance of the equations / clearance, in all coordinates of the rotor.
     truncation : float [1]
         Largest of the last quarter of the harmonics / clearance: the truncation error.
     work : dict of str to int
@@ -209,21 +219,32 @@ def periodic_orbit(
     """
     require_count("periods", periods)
     require_positive("tolerance", tolerance)
-    rotor = orbit_rotor(mounted)
     converged = max(CONVERGED, BALANCED * tolerance)
+    for level in range(WHOLE + 1):
+        found = _found(orbit_rotor(mounted, level), start, periods, converged)
+        orbit = finished(lengthened(found, tolerance, converged), stability=stability)
+        if orbit.residual <= tolerance:
+            break
+    return orbit
+
+
+def _found(
+    rotor: PeriodicRotor, start: PeriodicOrbit | Trajectory | None, periods: int, converged: float
+) -> Solution[PeriodicRotor]:
+    """Return the orbit of a rotor in its first harmonics."""
     if rotor.is_driven:
-        found = _driven(rotor, start, periods, converged)
-    elif start is None:
+        return _driven(rotor, start, periods, converged)
+    if start is None:
         raise InputError("start must be an orbit or a run that ends in whirl for a rotor without unbalance")
-    else:
-        series, frequency = _start_series(rotor, start, None)
-        balance = Balance(rotor=rotor, harmonics=HARMONICS, periods=0)
-        found = solve(balance, resized(series, HARMONICS), frequency, converged)
-    return finished(lengthened(found, tolerance, converged), stability=stability)
+    series, frequency = _start_series(rotor, start, None)
+    balance = Balance(rotor=rotor, harmonics=HARMONICS, periods=0)
+    return solve(balance, resized(series, HARMONICS), frequency, converged)
 
 
-def orbit_rotor(mounted: MountedRotor) -> PeriodicRotor:
+def orbit_rotor(mounted: MountedRotor, level: int = 0) -> PeriodicRotor:
     """Return a rotor with its bearings as the equations of an orbit see it, in C where its bearings allow.
+
+    It is in more of its shapes at a higher level, and whole at `WHOLE`.
 
     Raises
     ------
@@ -231,11 +252,22 @@ def orbit_rotor(mounted: MountedRotor) -> PeriodicRotor:
         If the rotor has no orbits here: its speed must be constant, the ground still.
     """
     bare, bearings = mounted.bare, mounted.all_bearings.values()
-    aside = isinstance(bare, RigidRotor | FlexibleRotor) and bool(bare.structure.others)
+    aside = isinstance(bare, FlexibleRotor) and bool(bare.assembly.others)
     if aside or any(freedoms_of(one) != PLANAR or (one.states and not takes_steps(one)) for one in bearings):
         return PortRotor.of(mounted)
+    model = None
+    if isinstance(bare, FlexibleRotor) and (model := _model(bare, level)) is not None:
+        mounted = mount(MatrixRotor(bare, model.structure), mounted.all_bearings)
     parts = take_apart(mounted)
-    return CompiledRotor(modal_rotor(parts, parts.speed), mounted)
+    return CompiledRotor(modal_rotor(parts, parts.speed), mounted, model)
+
+
+def _model(rotor: FlexibleRotor, level: int) -> Condensed | None:
+    """Return a rotor in the shapes of a level; None where it is whole."""
+    if rotor.assembly.hysteresis is not None or level == WHOLE:
+        return None
+    model = next(models(rotor, HARMONICS * max(rotor.nominal_speed, 1.0) * ABOVE**level, FEW))
+    return None if model.space is None else model
 
 
 def _driven(
@@ -264,7 +296,7 @@ def finished(solution: Solution[PeriodicRotor], *, stability: bool = True) -> Pe
         further=rotor.further(series),
         state=rotor.state(series, frequency, balance.periods),
         multipliers=rotor.multipliers(series, frequency) if stability else np.zeros(0, dtype=complex),
-        residual=solution.residual,
+        residual=max(solution.residual, rotor.neglected(balance, series, frequency)),
         truncation=truncation_of(solution),
         work={
             "film_evaluations": (solution.iterations + 1) * balance.samples * len(rotor.names),
@@ -301,9 +333,12 @@ class CompiledRotor(ModalFilms):
     Attributes
     ----------
     mounted : MountedRotor
+    model : Condensed, optional
+        The shapes that it moves in, where these are not all.
     """
 
     mounted: MountedRotor
+    model: Condensed | None = None
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -339,11 +374,86 @@ class CompiledRotor(ModalFilms):
 
     def state(self, series: Array, frequency: float, periods: int) -> Array:
         """Return the state of the rotor at phase 0 of an orbit."""
-        return state_at_start(self.modal, series, frequency, periods)
+        if self.model is None:
+            return state_at_start(self.modal, series, frequency, periods)
+        return WholeFilms(self.modal, self.model.whole).state(series, frequency, periods)
+
+    def neglected(self, balance: Balance[Any], series: Array, frequency: float) -> float:
+        """Return the imbalance of an orbit by the shapes that were left out, in clearances."""
+        if self.model is None:
+            return 0.0
+        whole = balance._replace(rotor=WholeFilms(self.modal, self.model.whole))
+        return float(np.abs(whole.values(series, frequency)).max())
 
     def multipliers(self, series: Array, frequency: float) -> Complex:
         """Return the Floquet multipliers of an orbit, the largest first."""
-        return multipliers(self.modal, series, frequency)
+        space = None if self.model is None else self.model.space
+        known_to = math.inf if space is None else space.cut / MARGIN**2
+        return multipliers(self.modal, series, frequency, known_to)
+
+
+@dataclass(frozen=True, eq=False)
+class WholeFilms(ModalFilms):
+    """All coordinates of a rotor on the springs of modes in few shapes, as the equations of an orbit see it.
+
+    Attributes
+    ----------
+    whole : Structure
+        Sparse.
+    """
+
+    whole: Structure
+
+    @cached_property
+    def rows(self) -> Array:
+        """Displacement of the journals, shape (2 n_bearings, N)."""
+        return np.concatenate([freedom_rows(self.whole, name) for name in self.modal.parts.names])
+
+    @cached_property
+    def motion(self) -> BandedMotion:
+        """Its small motion."""
+        s, rows, speed = self.whole, sparse.csr_array(self.rows), self.speed
+        spring, damper = (
+            rows.T @ sparse.diags_array(part) @ rows for part in (self.modal.spring, self.modal.damper)
+        )
+        damping = sparse.csr_array(s.damping) + speed * sparse.csr_array(s.gyroscopic) + damper
+        stiffness = sparse.csr_array(s.stiffness) + speed * sparse.csr_array(s.circulation) + spring
+        return BandedMotion(sparse.csr_array(s.mass), damping, stiffness)
+
+    def receptance(self, harmonics: int, frequency: float) -> Receptance:
+        """Return what the journals answer on the springs of the modes."""
+        rows = self.rows
+        answers = [rows @ self.motion.solve(1j * k * frequency, rows.T) for k in range(harmonics + 1)]
+        return np.array(answers), None
+
+    def external(self, harmonics: int, periods: int, frequency: float) -> Array:
+        """Return the series of the answer to weight, and to the unbalance if `periods` is not 0."""
+        s, rows = self.whole, self.rows
+        rest = (rows @ self.motion.solve(0.0, s.weight[:, None])).real[:, 0]
+        if not periods:
+            return constant(rest, harmonics)
+        moved = rows @ self.motion.solve(1j * periods * frequency, self._turning[:, None])
+        return with_wave(rest, moved[:, 0], harmonics, periods)
+
+    @property
+    def _turning(self) -> Complex:
+        """The force of the unbalance, shape (N,): it is the real part of this exp(i |speed| t)."""
+        pair = np.array([1.0, -1.0j * np.sign(self.speed)])
+        return np.asarray(self.speed**2 * self.whole.unbalance @ pair)
+
+    def state(self, series: Array, frequency: float, periods: int) -> Array:
+        """Return the state (2 N,) at phase 0 of an orbit."""
+        harmonics = series.shape[1] // 2
+        at = basis(harmonics, 4 * harmonics + 8)
+        force = self.forces(series @ at.values.T, frequency * (series @ at.slopes.T)) @ at.back.T
+        place = self.motion.solve(0.0, (self.rows.T @ force[:, 0] + self.whole.weight)[:, None]).real[:, 0]
+        rate = np.zeros_like(place)
+        for k in range(1, harmonics + 1):
+            push = self.rows.T @ (force[:, k] - 1j * force[:, harmonics + k])
+            push = push + self._turning if k == periods else push
+            moved = self.motion.solve(1j * k * frequency, push[:, None])[:, 0]
+            place, rate = place + moved.real, rate - k * frequency * moved.imag
+        return np.concatenate([place, rate])
 
 
 # Floquet multipliers of a periodic orbit: the monodromy matrix, integrated with the slopes of the films.
@@ -391,11 +501,15 @@ def on_mean_films(modal: ModalRotor, slopes: Array) -> ModalRotor:
     )
 
 
-def multipliers(modal: ModalRotor, series: Array, frequency: float) -> Complex:
-    """Return the Floquet multipliers, the largest first."""
+def multipliers(modal: ModalRotor, series: Array, frequency: float, known_to: float = math.inf) -> Complex:
+    """Return the Floquet multipliers, the largest first, of motion in modes up to a frequency [rad/s]."""
     scale = np.repeat([1.0, frequency], len(modal.shapes) // 2)
     matrix = monodromy(modal, series, frequency)
-    values = np.linalg.eigvals(matrix * scale / scale[:, None])
+    values, vectors = np.linalg.eig(matrix * scale / scale[:, None])
+    motion, sizes = scale[:, None] * vectors, np.linalg.norm(modal.shapes / scale[:, None], axis=0)
+    shares = np.abs(modal.inverse @ motion) + np.abs(modal.inverse.conj() @ motion)
+    leading = (sizes[:, None] * shares).argmax(axis=0)
+    values = values[np.abs(modal.values)[leading] <= known_to]
     return values[np.argsort(-np.abs(values))]
 
 

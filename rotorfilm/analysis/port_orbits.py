@@ -375,6 +375,10 @@ class PortRotor:
             total = total + self._solved(1j * k * frequency, push).real
         return np.asarray(total)
 
+    def neglected(self, balance: Any, series: Array, frequency: float) -> float:
+        """Return 0: it moves in all of its coordinates."""
+        return 0.0
+
     def multipliers(self, series: Array, frequency: float) -> Complex:
         """Return the Floquet multipliers, the largest first."""
         values = np.linalg.eigvals(self.monodromy(series, frequency))

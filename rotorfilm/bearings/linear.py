@@ -5,7 +5,8 @@ from __future__ import annotations
 import csv
 import io
 import math
-from collections.abc import Iterator, Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
@@ -25,6 +26,7 @@ from ..core.port import Force, Tangent, force_of, tangent_of
 from ..core.readable import Plottable, Tabled
 from ..core.results import Equilibrium
 from ..core.signals import FREEDOMS, PLANAR, Signal, checked_freedoms, force_outputs, journal_inputs
+from ..core.units import UNITS, parse_quantity, si_name
 from ..native.film_call import FilmCall
 from ..native.spec import NativeSpec, linear_kernel
 from .reaction import NOMINAL_SPEED, Feedthrough, broadcast_state, without_overflow
@@ -83,6 +85,22 @@ def headings(freedoms: tuple[str, ...]) -> list[str]:
     return found
 
 
+def _split_heading(text: str) -> tuple[str, str]:
+    """Return the name in a heading and its unit, in brackets or parentheses; empty where it has none."""
+    match = re.fullmatch(r"\s*(.*?)\s*[\[(]([^\[(]*)[\])]\s*", text)
+    return (match[1], match[2].strip()) if match else (text.strip(), "")
+
+
+def _numbers(path: Path | str, name: str, unit: str, entries: list[str]) -> Array:
+    known = si_name(unit) in UNITS  # a force per angle is not
+    try:
+        return np.array(
+            [parse_quantity(one, si_name(unit)) if known else float(one.split()[0]) for one in entries]
+        )
+    except ValueError as wrong:
+        raise InputError(f"{path} must hold numbers below {name!r}: {wrong}") from None
+
+
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class TabulatedBearing(Plottable, Tabled, LinearReaction):
@@ -99,7 +117,7 @@ class TabulatedBearing(Plottable, Tabled, LinearReaction):
         Rows: forces and moments; columns: places; both in the order of the freedoms. In [N/rad], [N],
         [N m/rad] where there are tilts.
     damping : array_like, shape (m, n, n) [N s/m]
-        The same by the rates.
+        Damping in the same arrangement, by the rates.
     freedoms : tuple of str
         Motions of the shaft that it reacts to, some of `core.signals.FREEDOMS`; ("x", "y") by default.
 
@@ -129,21 +147,49 @@ class TabulatedBearing(Plottable, Tabled, LinearReaction):
         object.__setattr__(self, "speeds", speeds)
 
     @classmethod
-    def from_csv(cls, path: Path | str) -> TabulatedBearing:
-        """Read a table that `to_csv` wrote; raise InputError where it is not one."""
+    def from_csv(cls, path: Path | str, columns: Mapping[str, str] | None = None) -> TabulatedBearing:
+        """Read a table of speed, stiffness and damping in any units and order.
+
+        Parameters
+        ----------
+        path : Path or str
+            A file of `to_csv`, or a table with headings as "speed [rpm]", "Kxx [N/mm]".
+        columns : mapping of str to str, optional
+            Headings of the file by "speed", "kxx" to "kyy", "cxx" to "cyy" (in any case), where they have
+            other names: `{"Kxx": "stiffness hor. [N/mm]", "speed": "n [rpm]"}`. A unit may stand there alone.
+
+        Returns
+        -------
+        TabulatedBearing
+            Cross terms and damping that the file does not have are zero.
+
+        Raises
+        ------
+        InputError
+            If a heading, a unit or a number cannot be read, or speed, kxx or kyy is missing.
+        """
         heading, *rows = list(csv.reader(io.StringIO(read_text(path), newline=""))) or [[]]
         known = {entry.partition(" ")[0] for entry in heading}
         freedoms = tuple(name for name in FREEDOMS if f"k_{name}_{name}" in known) or PLANAR
-        if heading != (wanted := headings(freedoms)):
-            raise InputError(f"{path} must have the columns {wanted}, got {heading}")
-        try:
-            numbers = np.array([[float(entry) for entry in row] for row in rows])
-        except ValueError as wrong:
-            raise InputError(f"{path} must hold numbers below its heading, got {wrong}") from None
-        if numbers.ndim != 2 or numbers.shape[1] != len(wanted):
-            raise InputError(f"{path} must have {len(wanted)} numbers in every row")
-        tables = numbers[:, 1:].reshape(len(numbers), 2, len(freedoms), len(freedoms))
-        return cls(speeds=numbers[:, 0], stiffness=tables[:, 0], damping=tables[:, 1], freedoms=freedoms)
+        units = dict(map(_split_heading, headings(freedoms)))
+        given = {key.lower(): text for key, text in (columns or {}).items()}
+        if unknown := [key for key in given if key not in units]:
+            raise InputError(f"columns must be of {', '.join(units)}, got {unknown[0]!r}")
+        found, there = {}, [_split_heading(entry)[0].lower() for entry in heading]
+        needed = ("speed", "kxx", "kyy") if freedoms == PLANAR else units
+        for name, unit in units.items():
+            wanted, meant = _split_heading(given.get(name, name))
+            if wanted.lower() in there:
+                place = there.index(wanted.lower())
+                written = meant or _split_heading(heading[place])[1] or unit
+                entries = [f"{row[place] if place < len(row) else ''} {written}" for row in rows if any(row)]
+                found[name] = _numbers(path, name, unit, entries)
+            elif name in given or name in needed:
+                raise InputError(f"{path} must have a column {given.get(name, name)!r}, got {heading}")
+        size, n = len(found["speed"]), len(freedoms)
+        columns_of = [found.get(name, np.zeros(size)) for name in list(units)[1:]]
+        tables = np.array(columns_of).T.reshape(size, 2, n, n)
+        return cls(speeds=found["speed"], stiffness=tables[:, 0], damping=tables[:, 1], freedoms=freedoms)
 
     def found_at(self, equilibria: Sequence[Equilibrium]) -> TabulatedBearing:
         """Return the table together with the equilibrium of each speed, for printing and tables."""
@@ -174,10 +220,12 @@ class TabulatedBearing(Plottable, Tabled, LinearReaction):
     def _pages(self) -> tuple[ResultTable, ...]:
         return (self.to_table(),)
 
-    def to_csv(self, path: Path | str) -> Path:
-        """Write the table with nine digits; return the path."""
-        columns = np.column_stack([self.speeds, *(t.reshape(len(t), -1) for t in self._tables)])
-        return write_csv(path, dict(zip(headings(self.freedoms), columns.T.tolist(), strict=True)))
+    def to_csv(self, path: Path | str, *, speed_unit: str = "rad/s") -> Path:
+        """Write the table with nine digits, the speed in rad/s, rpm or Hz; return the path."""
+        speeds = np.asarray(self.speeds) / parse_quantity(f"1 {speed_unit}", "rad/s")
+        columns = np.column_stack([speeds, *(t.reshape(len(t), -1) for t in self._tables)])
+        names = [f"speed [{speed_unit}]", *headings(self.freedoms)[1:]]
+        return write_csv(path, dict(zip(names, columns.T.tolist(), strict=True)))
 
     @property
     def nominal_speed(self) -> float:
@@ -258,7 +306,7 @@ def within_table(speed: ArrayLike, known: Array) -> Array:
     omega = require_finite("speed", speed)
     if np.any(omega < known[0]) or np.any(omega > known[-1]):
         raise InputError(
-            f"speed must be within the table, {known[0]:.6g} to {known[-1]:.6g} rad/s, got {speed!r}"
+            f"speed must be within the table, {known[0]:.6g} to {known[-1]:.6g} rad/s, got {omega.tolist()}"
         )
     return omega
 
@@ -281,7 +329,7 @@ class LinearBearing(LinearReaction):
         freedoms. Entries of tilts are in [N/rad], [N] and [N m/rad]. One number holds for all directions, n
         numbers are the diagonal.
     damping : float [N s/m] or n x n numbers
-        The same by the rates.
+        Damping in the same arrangement, by the rates.
     freedoms : tuple of str
         Motions of the shaft that it reacts to, some of `core.signals.FREEDOMS`; ("x", "y") by default.
 

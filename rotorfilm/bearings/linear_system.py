@@ -61,13 +61,14 @@ class FrequencyDependentReaction:
     Parameters
     ----------
     A : array_like, shape (m, m)
-        Of the states, whose number may be 0. With several `speeds` A, B, C and D have one matrix for each.
+        State matrix; the number of states may be 0. With several `speeds` A, B, C and D have one matrix for
+        each.
     B : array_like, shape (m, n)
-        Of the states by the n places of the shaft [m], [rad].
+        Input matrix: rates of the states by the n displacements of the shaft [m], [rad].
     C : array_like, shape (n, m)
-        Of forces and moments on the shaft [N], [N m] by the states.
+        Output matrix: forces and moments on the shaft [N], [N m] by the states.
     D : array_like, shape (n, n)
-        Of the same by the places; minus a stiffness.
+        Feedthrough: forces and moments by the displacements, which is minus a stiffness.
     freedoms : tuple of str
         Motions of the shaft, as ("x", "y") or ("z",), in the order of `core.signals.FREEDOMS`.
     speeds : array_like, shape (k,) [rad/s]
@@ -89,8 +90,10 @@ class FrequencyDependentReaction:
     InputError
         If a shape is wrong, a number is not finite or another value breaks its rule.
 
-    Notes ----- At rest the states are -A^-1 B q. An integrating state, as in a controller, would make the
-    static stiffness infinite. It is given a decay rate of 1e-9 of the slowest other pole, so that the static
+    Notes
+    -----
+    At rest the states are -A^-1 B q. An integrating state, as in a controller, would make the static
+    stiffness infinite. It is given a decay rate of 1e-9 of the slowest other pole, so that the static
     stiffness is very large but finite.
 
     Examples

@@ -184,10 +184,12 @@ class AnnularSeal(InertialModel):
         If length / diameter exceeds 0.25, or if the flow at rest is outside the range of Blasius' friction
         law.
 
-    Notes ----- The closed form for short seals of Black (1969) and Childs (1983); see `short_seal` for its
-    one addition. K, k, C and M are up to 5 % too large at length / diameter 0.2 and up to 25 % at 0.5,
-    compared with a perturbed bulk flow that includes circumferential pressure flow. Motion should be smaller
-    than half of the clearance.
+    Notes
+    -----
+    The closed form for short seals of Black (1969) and Childs (1983); see `short_seal` for its one addition.
+    K, k, C and M are up to 5 % too large at length / diameter 0.2 and up to 25 % at 0.5, compared with a
+    perturbed bulk flow that includes circumferential pressure flow. Motion should be smaller than half of the
+    clearance.
     """
 
     radius: float

@@ -48,6 +48,7 @@ if TYPE_CHECKING:
         orbit_distance,
         to_plain,
     )
+    from .saved_results import load_result as load_result, save_result as save_result
     from .signals import (
         FORCE_OUTPUTS,
         JOURNAL_INPUTS,

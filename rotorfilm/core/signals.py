@@ -165,6 +165,8 @@ class Variable(Scalar):
         State of the derivative of a state, the index of the state in the list.
     switch : bool
         Whether it is the value of a switching function, an event indicator.
+    array : str
+        Name of the array of which it is an element, as its neighbors in the list are; empty for a scalar.
     """
 
     unit: str | None = None
@@ -175,6 +177,7 @@ class Variable(Scalar):
     tunable: bool = False
     state: int | None = None
     switch: bool = False
+    array: str = ""
 
     @property
     def variability(self) -> str:
@@ -182,6 +185,16 @@ class Variable(Scalar):
         if self.causality != "parameter":
             return "continuous"
         return "tunable" if self.tunable else "fixed"
+
+
+def elements_of(variables: Sequence[Variable], reference: int) -> Sequence[Variable]:
+    """Return the elements of the array that begins at a value reference; one of a scalar."""
+    end, array = reference + 1, variables[reference].array
+    if not array or (reference and variables[reference - 1].array == array):
+        return variables[reference:end]
+    while end < len(variables) and variables[end].array == array:
+        end += 1
+    return variables[reference:end]
 
 
 def names(signals: tuple[Signal, ...]) -> list[str]:

@@ -98,6 +98,8 @@ DISPLAY_UNITS: dict[str, Unit] = {
     "kN/m": Unit(1e3, {"kg": 1, "s": -2}),
     "MN/m": Unit(1e6, {"kg": 1, "s": -2}),
     "kN s/m": Unit(1e3, {"kg": 1, "s": -1}),
+    "N s/mm": Unit(1e3, {"kg": 1, "s": -1}),
+    "lbf s/in": Unit(_POUND_FORCE / _INCH, {"kg": 1, "s": -1}),
     "GPa": Unit(1e9, {"kg": 1, "m": -1, "s": -2}),
     "mm": Unit(1e-3, {"m": 1}),
     "um": Unit(1e-6, {"m": 1}),

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from .description import fmi_variables
     from .export import export_fmu as export_fmu
     from .instance import describe_fmu, extracted, instantiated
+    from .layered import add_references
     from .reference import advance, from_state_space
     from .system_export import export_ssp as export_ssp
 else:

@@ -19,6 +19,7 @@ from ..core.errors import FmuError, brief
 from ..core.files import read_text
 from ..core.model import Array
 from . import instance as fmus
+from .layered import FOLDER, missing_references
 from .native.platforms import libraries, require_complete_file
 
 REFERENCE_TOLERANCE = 1e-8
@@ -58,8 +59,9 @@ def check_fmu(path: str | PathLike[str]) -> list[CheckItem]:
 
     The checks are its description by fmpy, and whether its libraries for all platforms are whole. Its
     directional derivatives are compared with central differences of fourth order, with steps scaled by the
-    nominal values. FMU states are saved, restored and serialized. A native FMU of this package also repeats
-    its reference trajectory, in Co-Simulation and in Model Exchange.
+    nominal values. FMU states are saved, restored and serialized. The files that a manifest of FMI-LS-REF
+    names must be there. A native FMU of this package also repeats its reference trajectory, in
+    Co-Simulation and in Model Exchange.
 
     Parameters
     ----------
@@ -79,6 +81,7 @@ def check_fmu(path: str | PathLike[str]) -> list[CheckItem]:
         checks: dict[str, Callable[[], Outcome]] = {
             "description": lambda: _check_description(str(path)),
             "libraries": lambda: _check_libraries(folder),
+            "related files": lambda: _check_references(description, folder),
             "directional derivatives": lambda: _check_derivatives(*of),
             "adjoint derivatives": lambda: _check_adjoint(*of),
             "FMU state": lambda: _check_state(description, folder),
@@ -111,6 +114,21 @@ def _check_libraries(folder: str) -> Outcome:
     return True, float(len(found)), "as long as their headers say"
 
 
+def _check_references(description: Any, folder: str) -> Outcome:
+    """Return whether the files of FMI-LS-REF are there, and its saved state is one of this FMU."""
+    missing = missing_references(folder)
+    if missing is None:
+        return None, None, "no files of FMI-LS-REF"
+    state = Path(folder, FOLDER, "warm_state.bin")
+    if state.is_file() and not missing:
+        with closing(fmus.instantiated(description, folder, False)) as instance:
+            instance.initialize([], [])
+            saved = instance.deserialize(state.read_bytes())
+            instance.restore(saved)
+            instance.release(saved)
+    return not missing, float(len(missing)), "files of the manifest that are missing"
+
+
 def _check_derivatives(description: Any, folder: str, reference: Array | None) -> Outcome:
     if not fmus.provides(folder, fmus.DERIVATIVES):
         return None, None, "no directional derivatives"
@@ -141,8 +159,8 @@ def _replayed(
 ) -> Outcome:
     if interface is None or reference is None:
         return None, None, "no such interface" if interface is None else "no reference trajectory in the FMU"
-    signals = fmus.variables_of(description, "output")
-    expected, nominal = reference[:, -len(signals) :], [fmus.nominal_of(signal) for signal in signals]
+    nominal = fmus.nominals_of(fmus.variables_of(description, "output"))
+    expected = reference[:, -len(nominal) :]
     found, largest = replay(description, folder, reference), np.abs(expected).max(axis=0)
     worst = float(np.max(np.abs(found - expected) / np.where(largest > 0.0, largest, nominal), initial=0.0))
     return worst <= REFERENCE_TOLERANCE, worst, "largest deviation from the trajectory inside"
@@ -158,7 +176,7 @@ def _visit(
     inputs = fmus.references_of(description, "input")
     rows = np.array([fmus.starts_of(description, "input")])
     if reference is not None:
-        rows = reference[:: max(1, len(reference) // 8), 1 : 1 + len(inputs)]
+        rows = reference[:: max(1, len(reference) // 8), 1 : 1 + rows.shape[1]]
     with closing(fmus.instantiated(description, folder, description.modelExchange is not None)) as instance:
         instance.initialize(inputs, rows[0].tolist())
         return max(measure(description, instance, row) for row in rows)
@@ -175,7 +193,7 @@ def _reference(description: Any, folder: str) -> Array | None:
     except (ValueError, csv.Error) as error:
         raise FmuError(f"reference.csv must be names and rows of numbers below them, got {error}") from None
     signals = [*fmus.variables_of(description, "input"), *fmus.variables_of(description, "output")]
-    if header != ["time", *(variable.name for variable in signals)]:
+    if header != ["time", *(name for variable in signals for name in fmus.elements_of(variable))]:
         raise FmuError(f"reference.csv must have the columns time, inputs, outputs, got {brief(header)}")
     if table.shape != (len(rows), len(header)) or not rows or not np.isfinite(table).all():
         raise FmuError(
@@ -201,11 +219,12 @@ def derivative_error(description: Any, instance: fmus.Instance, inputs: Array) -
     instance.set(fmus.references_of(description, "input"), inputs.tolist())
     if description.modelExchange is not None:
         instance.move(0.0, _states(description))
-    exact, values = _columns(instance, unknowns, knowns), np.abs(instance.get(unknowns))
+    exact = _columns(instance, unknowns, knowns, len(nominal))
+    values = np.abs(instance.get(unknowns))
     moved = np.stack(
         [
             _difference(description, instance, k, DIFFERENCE_STEP * nominal[k], inputs)
-            for k in range(len(knowns))
+            for k in range(len(nominal))
         ],
         axis=1,
     )
@@ -222,9 +241,9 @@ def adjoint_error(description: Any, instance: fmus.Instance, inputs: Array) -> f
         fmus.known_nominals(description),
     )
     instance.set(fmus.references_of(description, "input"), inputs.tolist())
-    exact = _columns(instance, unknowns, knowns)
-    rows = np.array([instance.adjoint([unknown], knowns, [1.0]) for unknown in unknowns])
-    return _deviation(exact * nominal, rows * nominal, np.zeros(len(unknowns)))
+    exact = _columns(instance, unknowns, knowns, len(nominal))
+    rows = np.array([instance.adjoint(unknowns, knowns, seed) for seed in np.eye(len(exact)).tolist()])
+    return _deviation(exact * nominal, rows * nominal, np.zeros(len(exact)))
 
 
 def _deviation(exact: Array, other: Array, floor: Array) -> float:
@@ -234,13 +253,14 @@ def _deviation(exact: Array, other: Array, floor: Array) -> float:
     return float(np.max(largest / np.where(scale > 0.0, scale, 1.0), initial=0.0))
 
 
-def _columns(instance: fmus.Instance, unknowns: Sequence[int], knowns: Sequence[int]) -> Array:
-    return np.stack([instance.directional(unknowns, [known], [1.0]) for known in knowns], axis=1)
+def _columns(instance: fmus.Instance, unknowns: Sequence[int], knowns: Sequence[int], count: int) -> Array:
+    seeds = np.eye(count).tolist()
+    return np.stack([instance.directional(unknowns, knowns, seed) for seed in seeds], axis=1)
 
 
 def _states(description: Any) -> Array:
     """Return the states for differences: beyond the start values, which may be the end of a range."""
-    nominal = fmus.known_nominals(description)[len(fmus.references_of(description, "input")) :]
+    nominal = fmus.nominals_of(fmus.variables_of(description, "local"))
     return fmus.starts_of(description, "local") + 4.0 * DIFFERENCE_STEP * nominal
 
 
@@ -248,14 +268,14 @@ def _difference(description: Any, instance: fmus.Instance, known: int, step: flo
     """Return the derivative by one known from central differences of fourth order."""
     weights = {-2.0: 1.0, -1.0: -8.0, 1.0: 8.0, 2.0: -1.0}
     states = _states(description)
-    total = np.zeros(len(fmus.unknowns_of(description)))
+    total = np.zeros(1)
     for shift, weight in weights.items():
         shifted = np.concatenate([inputs, states])
         shifted[known] += shift * step
         instance.set(fmus.references_of(description, "input"), shifted[: len(inputs)].tolist())
         if description.modelExchange is not None:
             instance.move(0.0, shifted[len(inputs) :])
-        total += weight * np.array(instance.get(fmus.unknowns_of(description)))
+        total = total + weight * np.array(instance.get(fmus.unknowns_of(description)))
     if description.modelExchange is not None:
         instance.move(0.0, np.array(states))
     return total / (12.0 * step)
@@ -314,7 +334,7 @@ def replay_steps(description: Any, folder: str, table: Array) -> Array:
         Columns time and inputs; the inputs of a row are held until the next row.
     """
     inputs, outputs = fmus.references_of(description, "input"), fmus.references_of(description, "output")
-    time, values = table[:, 0], table[:, 1 : 1 + len(inputs)]
+    time, values = table[:, 0], table[:, 1 : 1 + len(fmus.starts_of(description, "input"))]
     with closing(fmus.instantiated(description, folder, False)) as instance:
         instance.initialize(inputs, values[0].tolist(), float(time[0]), STEP_TOLERANCE)
         rows = [instance.get(outputs)]
@@ -328,8 +348,8 @@ def replay_steps(description: Any, folder: str, table: Array) -> Array:
 def replay_exchange(description: Any, folder: str, table: Array) -> Array:
     """Return the outputs (n_rows, n_outputs) of an FMU in Model Exchange; see `replay_steps`."""
     inputs, outputs = fmus.references_of(description, "input"), fmus.references_of(description, "output")
-    time, values = table[:, 0], table[:, 1 : 1 + len(inputs)]
-    nominal = np.array([fmus.nominal_of(state) for state in fmus.variables_of(description, "local")])
+    time, values = table[:, 0], table[:, 1 : 1 + len(fmus.starts_of(description, "input"))]
+    nominal = fmus.nominals_of(fmus.variables_of(description, "local"))
     with closing(fmus.instantiated(description, folder, True)) as instance:
         next_event = instance.initialize(inputs, values[0].tolist(), float(time[0]))
         x = instance.states(len(nominal))

@@ -6,7 +6,9 @@ import math
 import os
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from datetime import UTC, datetime
+from itertools import pairwise
 from typing import NamedTuple
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
@@ -15,7 +17,16 @@ from numpy.typing import NDArray
 
 from ..core.errors import FmuError, InputError
 from ..core.model import Array, Dynamic, Model, Stepped
-from ..core.signals import FREEDOMS, Scalar, Variable, force_names, names, place_names, to_fmi_name
+from ..core.signals import (
+    FREEDOMS,
+    Scalar,
+    Variable,
+    elements_of,
+    force_names,
+    names,
+    place_names,
+    to_fmi_name,
+)
 from ..core.units import DISPLAY_UNITS, UNITS
 
 # Which inputs, states and parameters each output and derivative depends on, for the FMI ModelStructure.
@@ -283,8 +294,8 @@ def to_xml(description: Description, version: str, token: str) -> bytes:
     experiment = {"stopTime": repr(description.stop_time), "stepSize": repr(description.step_size)}
     SubElement(root, "DefaultExperiment", {"startTime": "0.0", **experiment})
     variables = SubElement(root, "ModelVariables")
-    for reference, variable in enumerate(description.variables):
-        _add_variable(variables, reference, variable, second)
+    for reference in heads_of(description.variables):
+        _add_variable(variables, reference, elements_of(description.variables, reference), second)
     (_add_structure2 if second else _add_structure3)(SubElement(root, "ModelStructure"), description)
     return to_bytes(root)
 
@@ -342,14 +353,21 @@ def _add_type(parent: Element, attributes: Mapping[str, str], second: bool) -> N
         SubElement(parent, "Float64Type", {"name": name, **attributes})
 
 
-def _add_variable(parent: Element, reference: int, variable: Variable, second: bool) -> None:
+def _add_variable(parent: Element, reference: int, elements: Sequence[Variable], second: bool) -> None:
+    variable = elements[0]
     described, values = variable_attributes(variable, reference), value_attributes(variable)
     if variable.state is not None:
         values["derivative"] = str(variable.state + second)
     if second:
         SubElement(SubElement(parent, "ScalarVariable", described), "Real", values)
     else:
-        SubElement(parent, "Float64", described | values)
+        if variable.array:
+            described |= {"name": variable.array, "description": "; ".join(v.description for v in elements)}
+        if variable.array and variable.start is not None:
+            values["start"] = " ".join(repr(float(v.start or 0.0)) for v in elements)
+        element = SubElement(parent, "Float64", described | values)
+        if variable.array:
+            SubElement(element, "Dimension", start=str(len(elements)))
 
 
 def _add_structure2(structure: Element, description: Description) -> None:
@@ -374,11 +392,57 @@ def _add_structure3(structure: Element, description: Description) -> None:
     running = running_unknowns(variables, description.dependencies, description.tunable)
     unknowns = [("ContinuousStateDerivative" if u[0] in slopes else "Output", u) for u in running]
     initial = initial_unknowns(variables, description.dependencies)
-    for name, unknown in [*unknowns, *(("InitialUnknown", u) for u in initial)]:
+    for name, unknown in _folded(variables, [*unknowns, *(("InitialUnknown", u) for u in initial)]):
         attributes = {"valueReference": str(unknown[0]), **unknown_attributes(unknown, 0)}
         SubElement(structure, name, attributes)
     for reference in switch_references(variables):
         SubElement(structure, "EventIndicator", valueReference=str(reference))
+
+
+def _folded(variables: Sequence[Variable], unknowns: list[tuple[str, Unknown]]) -> list[tuple[str, Unknown]]:
+    """Return what arrays depend on, from what their elements depend on."""
+    head = {k: first for first in heads_of(variables) for k in range(first, first + _size(variables, first))}
+    found: dict[tuple[str, int], dict[int, str]] = {}
+    for name, (reference, knowns) in unknowns:
+        kinds = found.setdefault((name, head[reference]), {})
+        for known, kind in knowns:
+            same = kinds.setdefault(head[known], kind) == kind
+            kinds[head[known]] = kind if same else "dependent"
+    return [(name, (reference, list(kinds.items()))) for (name, reference), kinds in found.items()]
+
+
+def _size(variables: Sequence[Variable], reference: int) -> int:
+    return len(elements_of(variables, reference))
+
+
+def heads_of(variables: Sequence[Variable]) -> list[int]:
+    """Return the value references of scalars and of arrays, which have that of their first element."""
+    return [k for k, v in enumerate(variables) if not (v.array and k and variables[k - 1].array == v.array)]
+
+
+VECTORS = {
+    ("x", "y"): "position",
+    ("vx", "vy"): "velocity",
+    ("tilt_x", "tilt_y"): "tilt",
+    ("tilt_rate_x", "tilt_rate_y"): "tilt_rate",
+    ("force_x", "force_y"): "force",
+    ("moment_x", "moment_y"): "moment",
+}
+"""Signals that are the elements of an array where an FMU has arrays, and its name."""
+
+
+def in_arrays(variables: Sequence[Variable], prefix: str) -> tuple[Variable, ...]:
+    """Return the variables with inputs and outputs that are elements of a vector marked so."""
+    marked, before = list(variables), f"{prefix}." if prefix else ""
+    for k, pair in enumerate(pairwise(variables)):
+        labels = [variable.name.removeprefix(before) for variable in pair]
+        for ends, vector in VECTORS.items():
+            station = labels[0].removesuffix(ends[0])
+            matches = labels == [station + end for end in ends] and station[-1:] in ("", "_")
+            if matches and {variable.causality for variable in pair} in ({"input"}, {"output"}):
+                name = structured_name(prefix, station + vector)
+                marked[k : k + 2] = [replace(variable, array=name) for variable in pair]
+    return tuple(marked)
 
 
 def build_description(identifier: str, sources: tuple[str, ...]) -> bytes:
@@ -595,11 +659,24 @@ def terminals(component: str, prefix: str, inputs: Sequence[str], outputs: Seque
     return found
 
 
-def terminal_files(model: Model | Stepped, component: str, prefix: str, icon: bool) -> dict[str, bytes]:
+def terminal_files(
+    model: Model | Stepped, component: str, variables: Sequence[Variable], prefix: str, icon: bool
+) -> dict[str, bytes]:
     """Return terminalsAndIcons.xml by its path; nothing where there are neither terminals nor an icon."""
     found = terminals(component, prefix, names(model.inputs), names(model.outputs))
+    arrays = {v.name: v.array for v in variables if v.array}
+    found = {name: _vectors(members, arrays) for name, members in found.items()}
     path = "terminalsAndIcons/terminalsAndIcons.xml"
     return {path: terminals_and_icons(found, icon)} if found or icon else {}
+
+
+def _vectors(members: dict[str, str], arrays: Mapping[str, str]) -> dict[str, str]:
+    """Return the members of a terminal with arrays in place of their elements."""
+    vector = {element: name for pair, name in VECTORS.items() for element in pair}
+    return {
+        vector[member] if variable in arrays else member: arrays.get(variable, variable)
+        for member, variable in members.items()
+    }
 
 
 def _stations(labels: Sequence[str]) -> list[str]:

@@ -42,6 +42,7 @@ def export_fmu(
     author: str = "",
     flat_names: bool = False,
     fixed_size: bool = False,
+    arrays: bool = False,
 ) -> Path:
     """Write `model` as an FMU.
 
@@ -86,7 +87,10 @@ def export_fmu(
         Whether variables are named `signal` and `state_signal`, without the component.
     fixed_size : bool
         Whether radius and length of a plain journal bearing are fixed. The FMU then carries the map of their
-        ratio only, which makes it 20 % smaller.
+        ratio only, which makes it a third smaller.
+    arrays : bool
+        Whether inputs and outputs that are components of a vector (x and y) are arrays of two numbers:
+        `position`, `velocity`, `force`, `tilt`, `tilt_rate`, `moment`. For FMI 3.0 by the native backend.
 
     Returns
     -------
@@ -109,6 +113,11 @@ def export_fmu(
     native = is_native(subject, spec, backend)
     spec = sized(spec) if fixed_size else spec
     require_supported(target, version, native, platforms)
+    if arrays and not (native and version == "3.0"):
+        raise InputError(
+            f"arrays must be False unless FMI is 3.0 and the backend native, got version {version!r} and the "
+            f"{'native' if native else 'python'} backend"
+        )
     name = component_of(model) if component is None else component
     require_component(name)
     prefix = "" if flat_names else name
@@ -126,7 +135,7 @@ def export_fmu(
         "structured": bool(prefix),
     }
     if native and spec is not None:
-        export = Export(subject, spec, name, title, inputs, stop_time, version, platforms, prefix)
+        export = Export(subject, spec, name, title, inputs, stop_time, version, platforms, prefix, arrays)
         contents = native_contents(export, described)
     else:
         contents = python_contents(subject, prefix, inputs, described)

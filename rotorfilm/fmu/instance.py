@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import shutil
 import tempfile
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import chdir, contextmanager
-from ctypes import c_double, c_uint, c_void_p, cast
+from ctypes import c_double, c_int, c_uint, c_void_p, cast
 from os import PathLike
 from pathlib import Path
 from typing import Any, NoReturn
@@ -81,7 +81,7 @@ def instantiated(description: Any, folder: str, exchange: bool) -> Instance:
             )
     except Exception as error:
         raise FmuError(f"FMU {description.modelName!r} cannot be instantiated: {error}") from error
-    instance = Instance(fmu, version, exchange)
+    instance = Instance(fmu, version, exchange, {v.valueReference: size_of(v) for v in reals_of(description)})
     try:
         instance.instantiate()
     except Exception as error:
@@ -106,6 +106,7 @@ SPELLED = {
         "rate": "getDerivatives",
         "update": "newDiscreteStates",
         "deserialize": "deSerializeFMUstate",
+        "output_slope": "getRealOutputDerivatives",
     },
     "3.0": {
         "put": "setFloat64",
@@ -113,6 +114,7 @@ SPELLED = {
         "rate": "getContinuousStateDerivatives",
         "update": "updateDiscreteStates",
         "deserialize": "deserializeFMUState",
+        "output_slope": "getOutputDerivatives",
     },
 }
 """How each FMI version spells what both have."""
@@ -167,9 +169,12 @@ class Instance:
         Version of FMI, "2.0" or "3.0".
     exchange : bool
         Whether it is for Model Exchange.
+    sizes : mapping of int to int
+        How many numbers its variables have, by value reference.
     """
 
-    def __init__(self, fmu: Any, version: str, exchange: bool) -> None:
+    def __init__(self, fmu: Any, version: str, exchange: bool, sizes: Mapping[int, int]) -> None:
+        self._sizes = sizes
         self.fmu, self._version, self._exchange = fmu, version, exchange
         self._names = SPELLED[version] | CALLED
         self.counts_values = version == "3.0"
@@ -222,7 +227,8 @@ class Instance:
 
     def get(self, references: Sequence[int]) -> list[float]:
         """Return variables."""
-        return list(self._call("take", list(references))) if len(references) else []
+        count = self._count(references)
+        return list(self._call("take", list(references), *count)) if len(references) else []
 
     def port(self, references: Sequence[int]) -> Port:
         """Return these variables to be set or got again and again; the instance must exist."""
@@ -300,13 +306,25 @@ class Instance:
         self, unknowns: Sequence[int], knowns: Sequence[int], seed: Sequence[float]
     ) -> list[float]:
         """Return the derivative of the unknowns along `seed`, in the space of the knowns."""
-        found: list[float] = self.fmu.getDirectionalDerivative(unknowns, knowns, seed)
+        count = self._count(unknowns)
+        found: list[float] = self.fmu.getDirectionalDerivative(unknowns, knowns, seed, *count)
         return found
 
     def adjoint(self, unknowns: Sequence[int], knowns: Sequence[int], seed: Sequence[float]) -> list[float]:
         """Return the derivative of the sum of the unknowns, weighted by `seed`, by each known (FMI 3.0)."""
-        found: list[float] = self.fmu.getAdjointDerivative(unknowns, knowns, seed, nSensitivity=len(knowns))
+        (count,) = self._count(knowns)
+        found: list[float] = self.fmu.getAdjointDerivative(unknowns, knowns, seed, nSensitivity=count)
         return found
+
+    def output_slopes(self, references: Sequence[int]) -> list[float]:
+        """Return the derivatives of outputs in time under held inputs (Co-Simulation), FMI 3.0 or 2.0."""
+        many, count = len(references), self._count(references)
+        values = (c_double * (count or (many,))[0])()
+        orders = (c_int * many)(*[1] * many)
+        arguments = self.fmu.component, (c_uint * many)(*references), many, orders, values, *count
+        if (status := self.function("output_slope")(*arguments)) > FMI_WARNING:
+            self.fail("output_slope", status)
+        return list(values)
 
     def reset(self) -> None:
         """Return to what it was before the initialization."""
@@ -337,6 +355,10 @@ class Instance:
         finally:
             let_go(self.fmu)
             self.fmu.freeInstance()
+
+    def _count(self, references: Sequence[int]) -> tuple[int, ...]:
+        """Return how many numbers variables have; nothing in FMI 2.0, where they are scalars."""
+        return (sum(self._sizes[k] for k in references),) if self.counts_values else ()
 
     def _settle(self) -> float | None:
         """Leave event mode; in Co-Simulation there is none."""
@@ -454,7 +476,8 @@ def references_of(description: Any, causality: str) -> list[int]:
 
 def starts_of(description: Any, causality: str) -> Array:
     """Return their start values; see `variables_of`."""
-    return np.array([float(variable.start or 0.0) for variable in variables_of(description, causality)])
+    texts = [str(variable.start or 0.0) for variable in variables_of(description, causality)]
+    return np.array([float(number) for text in texts for number in text.split()])
 
 
 def nominal_of(variable: Any) -> float:
@@ -469,8 +492,24 @@ def knowns_of(description: Any) -> list[int]:
 
 def known_nominals(description: Any) -> Array:
     """Return the nominal values of `knowns_of`."""
-    known = [*variables_of(description, "input"), *variables_of(description, "local")]
-    return np.array([nominal_of(variable) for variable in known])
+    return nominals_of([*variables_of(description, "input"), *variables_of(description, "local")])
+
+
+def nominals_of(variables: Sequence[Any]) -> Array:
+    """Return the nominal values of the numbers of variables."""
+    return np.array([nominal_of(variable) for variable in variables for _ in elements_of(variable)])
+
+
+def elements_of(variable: Any) -> list[str]:
+    """Return the names of the numbers of a variable; those of an array count from 1."""
+    return (
+        [f"{variable.name}[{k + 1}]" for k in range(size_of(variable))] if variable.shape else [variable.name]
+    )
+
+
+def size_of(variable: Any) -> int:
+    """Return how many numbers a variable has: several of an array of FMI 3.0."""
+    return int(np.prod(variable.shape or 1))
 
 
 def unknowns_of(description: Any) -> list[int]:

@@ -1,8 +1,8 @@
-"""A rotor and the films under it as one file of SSP 1.0: FMUs, their connections, and their parameters."""
+"""A rotor and the films under it as one file of SSP: FMUs, their connections, and their parameters."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -51,6 +51,7 @@ def export_ssp(
     path: str | Path,
     version: str = "2.0",
     *,
+    ssp: str = "1.0",
     platforms: str = "host",
     start: Mapping[str, Mapping[str, float]] | None = None,
     stop_time: float = 0.1,
@@ -71,6 +72,9 @@ def export_ssp(
         Bearings or dampers.
     path : str or Path
         File to write, ending in `.ssp`; its folder is made if need be.
+    ssp : str
+        Version of SSP, "1.0" or "2.0". Tools of SSP 2.0 read both. Only 2.0 has `Float64`, the type of the
+        numbers of FMI 3.0.
     version, platforms : str
         Version and platforms as in `export_fmu`.
     start : mapping of str to mapping of str to float, optional
@@ -94,6 +98,8 @@ def export_ssp(
     target = Path(path)
     if target.suffix != ".ssp":
         raise InputError(f"path must end in .ssp, got {str(path)!r}")
+    if ssp not in VERSIONS:
+        raise InputError(f"ssp must be one of {list(VERSIONS)}, got {ssp!r}")
     for argument, value in (("stop_time", stop_time), ("step_size", step_size)):
         require_positive(argument, value)
     stations = films if isinstance(films, Mapping) else {"": films}
@@ -119,7 +125,9 @@ def export_ssp(
             parts[name] = _part(name, file)
     connections = [link for station in stations for link in _connected(parts, station)]
     target.parent.mkdir(parents=True, exist_ok=True)
-    return write_atomically(target, to_zip(_contents(target.stem, parts, connections, float(stop_time))))
+    return write_atomically(
+        target, to_zip(_contents(target.stem, parts, connections, float(stop_time), Format(ssp, version)))
+    )
 
 
 def _starts(
@@ -164,7 +172,7 @@ def _connected(parts: Mapping[str, Part], station: str) -> list[Connection]:
 
 
 def _contents(
-    name: str, parts: Mapping[str, Part], connections: list[Connection], stop_time: float
+    name: str, parts: Mapping[str, Part], connections: list[Connection], stop_time: float, form: Format
 ) -> dict[str, bytes]:
     """Return the files of the archive by path."""
     joined = {(end, label) for link in connections for end, label in (link[:2], link[2:])}
@@ -178,17 +186,37 @@ def _contents(
         )
         for part in parts.values()
     ]
+    parameters = [
+        (f"{part.name}.{variable.name}", variable)
+        for part in components
+        for variable in part.variables.values()
+        if variable.causality == "parameter"
+    ]
     return {
-        "SystemStructure.ssd": system_structure(name, components, connections, stop_time),
-        PARAMETERS: parameter_set(name, components),
+        "SystemStructure.ssd": system_structure(name, components, connections, stop_time, form),
+        PARAMETERS: parameter_set(name, parameters, form),
         **{part.source: part.content for part in components},
     }
 
 
-# SystemStructure.ssd and a parameter set of SSP 1.0: components, connections, parameters, units.
+# SystemStructure.ssd and a parameter set of SSP: components, connections, parameters, units.
 
 
-VERSION = "1.0"
+VERSIONS = ("1.0", "2.0")
+
+
+class Format(NamedTuple):
+    """Versions of SSP and of FMI."""
+
+    ssp: str = "1.0"
+    fmi: str = "2.0"
+
+    @property
+    def real(self) -> str:
+        """What a number is called."""
+        return "Real" if self.ssp == "1.0" or self.fmi == "2.0" else "Float64"
+
+
 NAMESPACES = {
     f"xmlns:{short}": f"http://ssp-standard.org/SSP1/SystemStructure{name}"
     for short, name in (("ssc", "Common"), ("ssd", "Description"), ("ssv", "ParameterValues"))
@@ -197,7 +225,11 @@ PARAMETERS = "resources/parameters.ssv"
 
 
 def system_structure(
-    name: str, components: Sequence[Part], connections: Sequence[Connection], stop_time: float
+    name: str,
+    components: Sequence[Part],
+    connections: Sequence[Connection],
+    stop_time: float,
+    form: Format,
 ) -> bytes:
     """Return SystemStructure.ssd.
 
@@ -210,47 +242,47 @@ def system_structure(
     connections : sequence of Connection
     stop_time : float [s]
         Stop time of the default experiment.
+    form : Format
     """
-    root = Element("ssd:SystemStructureDescription", {**NAMESPACES, "version": VERSION, "name": name})
+    root = Element("ssd:SystemStructureDescription", {**NAMESPACES, "version": form.ssp, "name": name})
     system = SubElement(root, "ssd:System", name=name)
     bindings = SubElement(system, "ssd:ParameterBindings")
     SubElement(bindings, "ssd:ParameterBinding", source=PARAMETERS)
     elements = SubElement(system, "ssd:Elements")
     for component in components:
-        _add_component(elements, component)
+        _add_component(elements, component, form.real)
     parent = SubElement(system, "ssd:Connections")
     ends = ("startElement", "startConnector", "endElement", "endConnector")
     for link in connections:
         SubElement(parent, "ssd:Connection", dict(zip(ends, link, strict=True)))
-    _add_units(SubElement(root, "ssd:Units"), components)
+    used = [variable for component in components for variable in component.variables.values()]
+    _add_units(SubElement(root, "ssd:Units"), used)
     SubElement(root, "ssd:DefaultExperiment", startTime="0.0", stopTime=repr(stop_time))
     return to_bytes(root)
 
 
-def parameter_set(name: str, components: Sequence[Part]) -> bytes:
-    """Return the values of all parameters, by `component.parameter`."""
-    root = Element("ssv:ParameterSet", {**NAMESPACES, "version": VERSION, "name": name})
+def parameter_set(name: str, parameters: Sequence[tuple[str, Any]], form: Format) -> bytes:
+    """Return the values of parameters: a file of SSP with their names and fmpy's variables."""
+    root = Element("ssv:ParameterSet", {**NAMESPACES, "version": form.ssp, "name": name})
     parent = SubElement(root, "ssv:Parameters")
-    for component in components:
-        for variable in component.variables.values():
-            if variable.causality == "parameter":
-                parameter = SubElement(parent, "ssv:Parameter", name=f"{component.name}.{variable.name}")
-                SubElement(parameter, "ssv:Real", {"value": variable.start, **_unit(variable)})
-    _add_units(SubElement(root, "ssv:Units"), components)
+    for label, variable in parameters:
+        parameter = SubElement(parent, "ssv:Parameter", name=label)
+        SubElement(parameter, f"ssv:{form.real}", {"value": variable.start, **_unit(variable)})
+    _add_units(SubElement(root, "ssv:Units"), [variable for _, variable in parameters])
     return to_bytes(root)
 
 
-def _add_component(elements: Element, component: Part) -> None:
+def _add_component(elements: Element, component: Part, real: str) -> None:
     kind = {"type": "application/x-fmu-sharedlibrary", "implementation": "CoSimulation"}
     attributes = {"name": component.name, "source": component.source, **kind}
     connectors = SubElement(SubElement(elements, "ssd:Component", attributes), "ssd:Connectors")
     for variable in component.variables.values():
         connector = SubElement(connectors, "ssd:Connector", name=variable.name, kind=variable.causality)
-        SubElement(connector, "ssc:Real", _unit(variable))
+        SubElement(connector, f"ssc:{real}", _unit(variable))
 
 
-def _add_units(parent: Element, components: Sequence[Part]) -> None:
-    for name in sorted({v.unit for component in components for v in component.variables.values() if v.unit}):
+def _add_units(parent: Element, variables: Iterable[Any]) -> None:
+    for name in sorted({variable.unit for variable in variables if variable.unit}):
         unit = SubElement(parent, "ssc:Unit", name=name)
         powers = {base: str(power) for base, power in UNITS[name].exponents.items()}
         SubElement(unit, "ssc:BaseUnit", powers)

@@ -324,10 +324,12 @@ def fit_bearing(
     ConvergenceError
         If the search does not end.
 
-    Notes ----- Least squares over scaled parameters. Positions and temperatures have exact derivatives by the
-    clearance, by the viscosity or temperature of the film and, without openings, by the cooling. All others
-    are central differences. The covariance is that of the linearized problem, (J^T J)^-1. If no noise was
-    given, it is multiplied by the mean square of the residuals, and the interval uses Student's distribution.
+    Notes
+    -----
+    Least squares over scaled parameters. Positions and temperatures have exact derivatives by the clearance,
+    by the viscosity or temperature of the film and, without openings, by the cooling. All others are central
+    differences. The covariance is that of the linearized problem, (J^T J)^-1. If no noise was given, it is
+    multiplied by the mean square of the residuals, and the interval uses Student's distribution.
 
     Examples
     --------

@@ -8,6 +8,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -30,7 +31,7 @@ QUANTITIES = {
 """What can be measured, and its unit: place of the journal, temperature of the film, stiffness, damping."""
 
 _AXES = {"speed": "rad/s", "load_x": "N", "load_y": "N"}
-_HEADING = re.compile(r"\s*(\w+)\s*\[(.+)\]\s*")
+_HEADING = re.compile(r"\s*(\w+)\s*(?:\[(.+)\]\s*)?")
 
 
 @quantities
@@ -44,8 +45,9 @@ class Measurements:
     load : array_like, shape (2,) or (2, n) [N]
         External static force on the journal.
     values : mapping of str to array_like, shape (n,)
-        Values by name, in SI units: "x" and "y" of the journal, "temperature" of the film, "power_loss",
-        "side_flow", and "kxx" to "cyy". Use not-a-number where a quantity was not measured.
+        Values by name, in SI units or as texts with units: "x" and "y" of the journal, "temperature" of the
+        film, "power_loss", "side_flow", and "kxx" to "cyy". Use not-a-number where a quantity was not
+        measured.
     noise : mapping of str to float, optional
         Standard deviation of each quantity, in its unit. Without it, each quantity is weighted by its own
         size, and the residuals of the fit tell how noisy it is.
@@ -77,7 +79,8 @@ class Measurements:
         found = {}
         for name, given in self.values.items():
             try:
-                found[name] = series = np.asarray(given, dtype=float)
+                texts: Any = given
+                found[name] = series = np.array([_in_si(name, one) for one in texts], dtype=float)
             except (TypeError, ValueError):
                 raise InputError(f"values must be numeric for {name!r}, got {brief(given)}") from None
             if series.shape != speed.shape or np.isinf(series).any():
@@ -98,6 +101,8 @@ class Measurements:
         cls, path: Path | str, *, load: ArrayLike | None = None, noise: Mapping[str, float] | None = None
     ) -> Measurements:
         """Read a CSV file: a column for each quantity, headings as "speed [rpm]", "temperature [degC]".
+
+        The unit may stand in each entry instead, as "3000 rpm" below the heading "speed".
 
         Parameters
         ----------
@@ -163,13 +168,19 @@ def _require_known(name: str, given: Mapping[str, object]) -> None:
 
 
 def _column(heading: str, entries: list[str]) -> tuple[str, list[float]]:
-    """Return the name of a column and its numbers in SI units."""
+    """Return the name of a column and its numbers in SI units, by the unit of the heading or their own."""
     match = _HEADING.fullmatch(heading)
     known = {**QUANTITIES, **_AXES}
     if match is None or match[1] not in known:
         raise InputError(f"headings must be a quantity with its unit such as 'x [um]', got {brief(heading)}")
-    unit = known[match[1]]
     return match[1], [
-        parse_quantity(f"{entry} {match[2]}", unit, absolute=unit == "K") if entry.strip() else np.nan
-        for entry in entries
+        _in_si(match[1], f"{entry} {match[2] or ''}" if entry.strip() else "") for entry in entries
     ]
+
+
+def _in_si(name: str, entry: Any) -> float:
+    """Return one number in SI; nan where there is none."""
+    unit = {**QUANTITIES, **_AXES}[name]
+    if not isinstance(entry, str):
+        return float(entry)
+    return parse_quantity(entry, unit, absolute=unit == "K") if entry.strip() else np.nan

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..core.errors import InputError
 from ..core.model import Array
-from ..core.signals import Variable
+from ..core.signals import Variable, elements_of
 from .library import FOLDER
 from .spec import NativeSpec
 
@@ -25,7 +25,7 @@ VERSION = 2
 
 _HEADER = struct.Struct("<8sIIQ")  # magic, version, checksum of what follows the header, size of the file
 _MODEL = struct.Struct("<128s32sIIII")  # token, kernel, variables, tables, two reserved
-# role, index, flags, reserved, start, minimum, maximum, nominal, name
+# role, index, flags, elements of the array behind it, start, minimum, maximum, nominal, name
 _VARIABLE = struct.Struct("<IIII4d48s")
 _TABLE = struct.Struct("<32sIIIIIIQ")  # name, axes, four extents, whether in quanta, offset in the file
 _TUNABLE = 1
@@ -112,11 +112,12 @@ def _require_order(spec: NativeSpec, variables: Sequence[Variable]) -> None:
 
 def _variables(variables: Sequence[Variable]) -> Iterator[bytes]:
     seen = dict.fromkeys(Role, 0)
-    for v in variables:
+    for k, v in enumerate(variables):
         role, kept = role_of(v), v.name.encode()[:47].decode(errors="ignore").encode()
         start, nominal = 0.0 if v.start is None else v.start, v.nominal or 1.0
         flags = _TUNABLE if v.tunable else 0
-        yield _VARIABLE.pack(role, seen[role], flags, 0, start, v.minimum, v.maximum, nominal, kept)
+        more = len(elements_of(variables, k)) - 1
+        yield _VARIABLE.pack(role, seen[role], flags, more, start, v.minimum, v.maximum, nominal, kept)
         seen[role] += 1
 
 

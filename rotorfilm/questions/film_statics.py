@@ -32,6 +32,7 @@ from ..scenes.solve_journal import conserved_threshold
 from .conserved_oil import Change, change_at_rest, coarse_films, conserved_ladder, conserved_oil, rest_on
 from .heat_levels import BALANCED, HeatLevel, WarmSolution, answer_below, heat
 from .quantities import QUANTITIES, TEMPERATURES, FilmQuantity, relative
+from .turbulent_oil import turbulent_oil
 from .walk import NoAnswerError
 
 if TYPE_CHECKING:
@@ -140,6 +141,7 @@ class FilmQuestion:
 EFFECTS = [
     heat,
     conserved_oil,
+    turbulent_oil,
 ]
 """Effects on films of any bearing: each takes scene, question, films and ladder, and returns the ladder."""
 

@@ -209,6 +209,7 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         for without a place.
     """
     place, shaft = orbit_place(scene, quantity), scene.shaft
+    shaft.require_lateral(quantity)
     rotor, levels = shaft.build(speed=scene.speed, extra=_extra(scene)), shaft_films.film_levels(shaft)
     models, films = shaft_models(rotor), levels[0]
     choices = _choices(models, nonlinear=bool(films.journals))
@@ -410,6 +411,7 @@ def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         If the scene has no shaft, an excitation that is no run, or films on an oil.
     """
     given = scene.required("shaft", quantity)
+    given.require_lateral(quantity)
     require_kind(scene.excitation, ("unbalance", "blade_loss", "run_up", "ground"))
     scene = after_loss(scene)
     excitation = scene.excitation

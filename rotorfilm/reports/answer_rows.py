@@ -37,9 +37,16 @@ def answer_rows(answer: Readable) -> list[tuple[str, str]]:
 
 def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
     """Return the rows that describe a rotor: with level I of API 617 where it is a compressor."""
+    from ..scenes.solve_shaft import amplitude_unit
+
     found = answer.threshold
     rows = [("rotor", f"{answer.mass:.6g} kg, {answer.states} states")]
-    rows += [(f"load on {name}", f"{np.hypot(*load):.6g} N") for name, load in answer.loads.items()]
+    rows += [
+        (f"load on {name}", f"{np.hypot(*load):.6g} N")
+        if len(load) == 2
+        else (f"moment on {name}", f"{np.hypot(*load[-2:]):.6g} N m")
+        for name, load in answer.loads.items()
+    ]
     rows += [
         (
             "critical speed",
@@ -56,7 +63,9 @@ def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
     for name, amplitude in answer.amplitudes.items():
         assert answer.response is not None  # or there are no amplitudes
         k = int(np.argmax(amplitude))
-        size = f"{amplitude[k]:.4g} N" if "_force_" in name else f"{amplitude[k] * 1e6:.4g} um"
+        unit = amplitude_unit(name)
+        small = unit in ("m", "rad")
+        size = f"{amplitude[k] * (1e6 if small else 1.0):.4g} {'u' if small else ''}{unit}"
         turned = float(np.asarray(answer.response.frequency)[k])
         beyond = found.speed is not None and turned > found.speed
         remark = ", beyond the threshold" if beyond else ""

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     )
     from .force_law import ForceLaw, LawRotor
     from .motor import LinearMotor as LinearMotor, MotorDrivenRotor as MotorDrivenRotor
-    from .mounted import MountedRotor as MountedRotor, mount as mount
+    from .mounted import MountedRotor as MountedRotor, UnbalancePlane as UnbalancePlane, mount as mount
     from .profile import SpeedProfile as SpeedProfile
     from .reduced_rotor import (
         ModallyDampedRotor as ModallyDampedRotor,

@@ -95,9 +95,11 @@ class ShaftCrack:
     InputError
         If an argument breaks its rule; where the rotor is known, if it has no such solid element.
 
-    Notes ----- A hinge of compliance h (`crack_compliance`) in the middle of an element of bending stiffness
-    EI over a length l reduces its stiffness against the difference of the tilts of its ends by kappa^2 h/(1 +
-    kappa h), kappa = EI/l. This is exact, with or without shear.
+    Notes
+    -----
+    A hinge of compliance h (`crack_compliance`) in the middle of an element of bending stiffness EI over a
+    length l reduces its stiffness against the difference of the tilts of its ends by kappa^2 h/(1 + kappa h),
+    kappa = EI/l. This is exact, with or without shear.
     """
 
     element: int

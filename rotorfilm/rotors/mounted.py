@@ -34,7 +34,7 @@ from ..core.signals import PLANAR, Signal, indices, names
 from ..native.spec import HasKernel, NativeSpec
 from .profile import SpeedProfile
 from .rigid import RigidRotor, native_parameter
-from .structure import AroundRotor, FlexibleRotor, Operators, prefixed, station_names
+from .structure import AroundRotor, FlexibleRotor, Operators, prefixed, station_names, unbalance_columns
 
 
 class Mount(NamedTuple):
@@ -112,6 +112,23 @@ class Mount(NamedTuple):
         return static_linearization(static_slopes(self.reaction, at[:2], at[2:4], at[4]))
 
 
+class UnbalancePlane(NamedTuple):
+    """An unbalance that is a parameter of the compiled system.
+
+    Attributes
+    ----------
+    station : str
+        Of the rotor, at its node, without a bearing.
+    unbalance : float [kg m]
+        That the rotor has there.
+    unbalance_angle : float [rad]
+    """
+
+    station: str
+    unbalance: float
+    unbalance_angle: float
+
+
 def wired(rotor: Model, bearings: Bearings, name: str) -> list[Mount]:
     """Return reactions in the stations of a rotor.
 
@@ -130,7 +147,7 @@ def wired(rotor: Model, bearings: Bearings, name: str) -> list[Mount]:
         further inputs, or has states and no derivative.
     """
     inputs, outputs = names(rotor.inputs), names(rotor.outputs)
-    mounts, last = [], len(rotor.states)
+    mounts, last = [], np.size(getattr(rotor, "initial_state", ()))
     for station, bearing in bearings.items():
         argument = f"{name}[{station!r}]" if station else name
         require_reaction(argument, bearing, heavy=True, over_time=True)
@@ -168,6 +185,8 @@ class MountedRotor(AroundRotor):
     stations : tuple of str
     bearings : tuple of Reaction
         One bearing for each of the stations; one with states is a Dynamic model too, such as `BushReaction`.
+    planes : tuple of UnbalancePlane
+        Unbalances of the rotor that a simulator may set in the compiled system.
 
     Raises
     ------
@@ -179,6 +198,7 @@ class MountedRotor(AroundRotor):
     rotor: Dynamic
     stations: tuple[str, ...]
     bearings: tuple[Reaction, ...]
+    planes: tuple[UnbalancePlane, ...] = ()
 
     def __post_init__(self) -> None:
         if len(self.stations) != len(self.bearings):
@@ -269,6 +289,7 @@ class MountedRotor(AroundRotor):
             carried=self._taken,
             free=self._free,
             motion=[row for mount in self.mounts for row in mount.motion[:-1]],
+            planes=self.planes,
         )
 
     def _sensed(self, t: float, x: ArrayLike) -> tuple[Array, Array, Array]:
@@ -482,7 +503,13 @@ KINDS = (
 
 
 def system_kernel(
-    rotor: Dynamic, bearings: Bearings, *, carried: Sequence[int], free: Sequence[int], motion: Sequence[int]
+    rotor: Dynamic,
+    bearings: Bearings,
+    *,
+    carried: Sequence[int],
+    free: Sequence[int],
+    motion: Sequence[int],
+    planes: Sequence[UnbalancePlane] = (),
 ) -> NativeSpec | None:
     """Return the kernel of a rotor with bearings; None if a part of it has none.
 
@@ -496,6 +523,8 @@ def system_kernel(
         Inputs of the rotor that are forces of the bearings, and the others.
     motion : sequence of int
         Outputs of the rotor that are x, y, vx, vy of the stations.
+    planes : sequence of UnbalancePlane
+        Unbalances that are parameters.
     """
     parts = [bearing.native() if isinstance(bearing, HasKernel) else None for bearing in bearings.values()]
     specs = [spec for spec in parts if spec is not None and spec.kernel in KINDS]
@@ -507,12 +536,22 @@ def system_kernel(
     own = [prefixed(name, p) for name, spec in zip(bearings, specs, strict=True) for p in spec.parameters]
     places, sets = _distinct(specs)
     kinds = [KINDS.index(spec.kernel) for spec in specs]
+    set_there = [
+        prefixed(plane.station, native_parameter(name, getattr(plane, name)))
+        for plane in planes
+        for name in ("unbalance", "unbalance_angle")
+    ]
+    force = [
+        indices("rotor must have the inputs", names(rotor.inputs), station_names(one.station)[1])
+        for one in planes
+    ]
     return NativeSpec(
         kernel="rotor_system",
         parts=tuple(spec.kernel for spec in specs),
-        parameters=(*own, *speed),
+        parameters=(*own, *speed, *set_there),
         tables={
             **_matrices(operators, list(carried), list(free), list(motion)),
+            **_unbalances(operators, planes, force),
             "times": np.array(profile.times),
             "speeds": np.array(profile.speeds),
             "bearings": np.column_stack([kinds, places]).astype(float),
@@ -537,10 +576,21 @@ def _matrices(model: Operators, carried: list[int], free: list[int], motion: lis
         "push": model.push[n:, free],
         "carry": model.push[n:, carried],
         "weight": model.weight[n:, None],
-        "unbalance": model.unbalance[n:],
         "sense": model.sense,
         "motion": model.sense[motion],
     }
+
+
+def _unbalances(
+    model: Operators, planes: Sequence[UnbalancePlane], force: Sequence[list[int]]
+) -> dict[str, Array]:
+    """Return the unbalance that is no parameter, and the accelerations by unit forces in the planes."""
+    n = len(model.weight) // 2
+    columns = [model.push[n:, pair] for pair in force]
+    rest = model.unbalance[n:].copy()
+    for plane, by in zip(planes, columns, strict=True):
+        rest -= by @ unbalance_columns(plane.unbalance, plane.unbalance_angle)
+    return {"unbalance": rest, "planes": np.hstack([np.zeros((n, 0)), *columns])}
 
 
 def _distinct(specs: Sequence[NativeSpec]) -> tuple[list[int], list[NativeSpec]]:

@@ -90,7 +90,7 @@ class ReducedRotor(FlexibleRotor):
 
     @property
     def transformation(self) -> Array:
-        """Coordinates of the rotor per coordinate that is kept, shape (N, n)."""
+        """Matrix from the reduced coordinates to those of the rotor, shape (N, n)."""
         return whole_basis(self.basis, len(self.rotor.assembly.others))
 
 

@@ -652,12 +652,17 @@ class Probe:
         Index of the node, from 0 at the first end of the shaft.
     name : str
         Prefix of its outputs.
+    angle : float [rad]
+        From +x to the first of two sensors, which has the output `name_x`; the other stands a quarter of a
+        turn further about +z.
     """
 
     node: int
     name: str
+    angle: float = 0.0
 
     def __post_init__(self) -> None:
+        require_number("angle", self.angle)
         if not self.name.isidentifier():
             raise InputError(f"name must be an identifier, got {self.name!r}")
 

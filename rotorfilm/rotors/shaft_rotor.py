@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from itertools import accumulate
 from typing import Any, ClassVar
@@ -105,8 +105,10 @@ class ShaftRotor(Plottable, FlexibleRotor):
     InputError
         If an argument breaks its rule; of a part that is on no node, the message names the node.
 
-    Notes ----- Axial and torsional motion of a straight shaft is independent of its bending and its rotation;
-    only bearings couple them. For these motions internal damping acts as ordinary damping, and hysteresis is
+    Notes
+    -----
+    Axial and torsional motion of a straight shaft is independent of its bending and its rotation; only
+    bearings couple them. For these motions internal damping acts as ordinary damping, and hysteresis is
     neglected.
 
     Examples
@@ -170,7 +172,21 @@ class ShaftRotor(Plottable, FlexibleRotor):
         Coordinates of a plane: deflection and tilt of node 0, 1, ..., the internal ones of the elements, and
         the displacement of each support. For axial and torsional motion: those of the nodes and the internal
         ones of the elements.
+        Rotors with the same parts, such as one shaft at many speeds, share the matrices.
         """
+        own = [one.name for one in fields(self) if one.name not in ("speed", "initial")]
+        parts = (type(self), *(getattr(self, name) for name in own))
+        try:
+            hash(parts)
+        except TypeError:  # a part that is changed in place, perhaps
+            return self._from_parts()
+        if parts not in _shared:
+            _shared[parts] = self._from_parts()
+            while len(_shared) > _SHARED:
+                _shared.pop(next(iter(_shared)))
+        return _shared[parts]
+
+    def _from_parts(self) -> Structure:
         structure = self._planar()
         if self.axial:
             structure = self._extended(structure, "z", "m", axial_chain(self.elements, self.disks))
@@ -227,7 +243,7 @@ class ShaftRotor(Plottable, FlexibleRotor):
                 *(
                     r
                     for p in self.probes
-                    for r in displacements(p.name, (2 * p.node, 2 * p.node + size), 2 * size)
+                    for r in displacements(p.name, (2 * p.node, 2 * p.node + size), 2 * size, p.angle)
                 ),
                 *_support_readouts(supported, size),
             ),
@@ -239,6 +255,12 @@ class ShaftRotor(Plottable, FlexibleRotor):
 
 
 # From the parts of a shaft to its matrices.
+
+
+_SHARED = 8
+"""Structures that rotors of the same parts share."""
+
+_shared: dict[tuple[Any, ...], Structure] = {}
 
 
 def _node_coordinates(elements: Sequence[ShaftPiece]) -> Iterator[Coordinate]:

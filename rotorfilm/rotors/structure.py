@@ -319,10 +319,11 @@ def unbalance_columns(unbalance: float, angle: float) -> Array:
     return np.array([[unbalance * cos, -unbalance * sin], [unbalance * sin, unbalance * cos]])
 
 
-def displacements(name: str, places: tuple[int, int], size: int) -> tuple[Readout, ...]:
-    """Return the readouts name_x, name_y of the coordinates at two places among `size`."""
+def displacements(name: str, places: tuple[int, int], size: int, angle: float = 0.0) -> tuple[Readout, ...]:
+    """Return the readouts name_x, name_y of the coordinates at two places among `size`, on turned axes."""
     rows = np.zeros((len(places), 2 * size))
-    rows[range(len(places)), places] = 1.0
+    cos, sin = math.cos(angle), math.sin(angle)
+    rows[:, places] = [[cos, sin], [-sin, cos]]
     text = f"displacement of {name} along "
     signals = signals_of(*((f"{name}_{axis}", "m", NOMINAL_LENGTH, text + axis) for axis in "xy"))
     return tuple(zip(signals, rows, strict=True))
@@ -599,9 +600,8 @@ def summed(size: int, parts: Iterable[tuple[Sequence[int], Array]]) -> Any:
 
     rows, columns, values = [], [], []
     for places, part in parts:
-        row, column = np.meshgrid(places, places, indexing="ij")
-        rows.append(row.ravel())
-        columns.append(column.ravel())
+        rows.append(np.repeat(places, len(places)))
+        columns.append(np.tile(places, len(places)))
         values.append(np.ravel(part))
     if not values:
         return sparse.csr_array((size, size))

@@ -5,13 +5,17 @@ from typing import TYPE_CHECKING
 from ..core.sources import show
 
 if TYPE_CHECKING:
-    from .export_scene import export_rotor_fmu as export_rotor_fmu
+    from .export_scene import (
+        export_machine_fmu as export_machine_fmu,
+        export_rotor_fmu as export_rotor_fmu,
+    )
     from .ross import (
         RossRotor as RossRotor,
         read_ross as read_ross,
         to_ross as to_ross,
         to_ross_force as to_ross_force,
     )
+    from .save_scene import scene_of as scene_of
     from .scene import (
         QuestionTable,
         Scene as Scene,

@@ -52,7 +52,7 @@ def _read_friction(where: str, value: Any) -> bushes.Friction:
     optional=True,
 )
 class BushTable(Taking):
-    """`[bush]`: a polymer bush; a value that the table lacks is that of its material.
+    """`[bush]`: a polymer bush; values that are not given are those of its material.
 
     Parameters
     ----------

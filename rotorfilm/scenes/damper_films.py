@@ -349,6 +349,10 @@ def _richest(table: DamperTable, own: dampers.SqueezeLaw) -> dampers.SqueezeLaw:
 # What every squeeze film of a damper leaves out, judged by dimensionless numbers.
 
 
+EDDIES = (0.0, 500.0, 1000.0, 2000.0, 5000.0, 10000.0), (0.0, 0.01, 0.03, 0.08, 0.26, 0.58)
+"""Speed R c/nu of a whirl, and what eddies of the squeeze flow add to the force: orbit 0.4, L/D 0.5."""
+
+
 def damper_numbers(
     damper: dampers.PorousDamper, oil: Lubricant, mass: float, speed: float, eccentricity_ratio: float
 ) -> dict[str, float]:
@@ -367,6 +371,8 @@ def damper_numbers(
         pressure : largest pressure of the film over the ambient one: a full film carries as much tension; and
         the part of a cavity that ambient pressure fills again within a turn is the inverse of this.
         compression : largest pressure over the bulk modulus.
+        squeezed : Reynolds number of the flow around the film that the orbit drives, eccentricity ratio times
+        speed R c/nu; turbulence : what eddies of that flow add to the force, of an orbit of 0.4 and L/D 0.5.
 
     Notes
     -----
@@ -381,6 +387,7 @@ def damper_numbers(
     tangential = float(damper.force([e, 0.0], [0.0, omega * e], omega)[1])
     inertia = omega * c**2 * oil.density / damper.viscosity / 10.0
     power = -tangential * omega * e
+    whirled = 10.0 * inertia * R / c
     peclet = omega * c**2 * volumetric / oil.conductivity
     adiabatic = power / (volumetric * 2.0 * R * L * e * omega)
     conducted = power * c / (2.0 * math.pi * R * L * 8.0 * oil.conductivity)
@@ -390,6 +397,8 @@ def damper_numbers(
         "eccentricity_ratio": eccentricity_ratio,
         "inertia": inertia,
         "reynolds": 10.0 * inertia,
+        "squeezed": eccentricity_ratio * whirled,
+        "turbulence": float(np.interp(whirled, *EDDIES)),
         "added_mass": inertia * -tangential / (omega**2 * e * mass),
         "peclet": peclet,
         "warming": warming,

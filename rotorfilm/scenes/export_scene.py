@@ -14,7 +14,17 @@ from ..core.files import written_together
 from ..core.inputs import arguments
 from ..core.port import Reaction, from_rest
 from ..fmu import export_fmu, export_ssp
-from ..rotors import FlexibleRotor, Reduction, SteadyRotor, mount, reduce_rotor
+from ..rotors import (
+    FlexibleRotor,
+    MountedRotor,
+    Reduction,
+    ShaftRotor,
+    Station,
+    SteadyRotor,
+    UnbalancePlane,
+    mount,
+    reduce_rotor,
+)
 from ..rotors.force_law import LawRotor
 from ..rotors.rigid import RigidRotor
 from ..rotors.structure import station_names
@@ -262,6 +272,78 @@ def export_rotor_fmu(
     model = SteadyRotor(rotor=reduction.rotor)
     export_fmu(model, path, version, platforms=platforms, component=component, start=start)
     return reduction
+
+
+@arguments
+def export_machine_fmu(
+    rotor: ShaftRotor,
+    bearings: Mapping[str, Reaction],
+    path: str | Path,
+    version: str = "2.0",
+    *,
+    frequency: float,
+    tolerance: float = 1e-3,
+    platforms: str = "host",
+    component: str = "machine",
+    stop_time: float = 0.1,
+    step_size: float = 1e-4,
+) -> MountedRotor:
+    """Write a rotor with its bearings as one FMU, at rest in them at its speed.
+
+    Outputs are the motions of its bearings and probes by their names, and the forces of the bearings.
+    Parameters are `constant_speed` [rad/s], fixed, and of each plane with an `Unbalance`, by its node k,
+    `plane_k_unbalance` [kg m] and `plane_k_unbalance_angle` [rad], tunable where the FMU is compiled; an
+    unbalance of 0 makes a plane too. Inputs are forces in the planes, `plane_k_force_x` and _y [N].
+
+    Parameters
+    ----------
+    rotor : ShaftRotor
+    bearings : mapping of str to Reaction
+        By station, one for each.
+    path, version, platforms, component, stop_time, step_size
+        As in `export_fmu`.
+    frequency : float [rad/s]
+        Highest frequency of interest, as in `reduce_rotor`.
+    tolerance : float [1]
+        Largest error of the reduction.
+
+    Returns
+    -------
+    MountedRotor
+        The model that was written.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+    ConvergenceError
+        If no reduction is within the tolerance.
+    EquilibriumError
+        If there is no equilibrium in the bearings.
+    """
+    sums: dict[int, complex] = {}
+    for one in rotor.unbalances:
+        phasor = one.unbalance * np.exp(1j * one.unbalance_angle)
+        sums[one.node] = sums.get(one.node, 0.0) + phasor
+    planes = tuple(
+        UnbalancePlane(f"plane_{node}", float(abs(sum_)), float(np.angle(sum_)))
+        for node, sum_ in sums.items()
+    )
+    further = (Station(node=node, name=plane.station) for node, plane in zip(sums, planes, strict=True))
+    whole = replace(rotor, stations=(*rotor.stations, *further))
+    reduced = reduce_rotor(whole, frequency=frequency, tolerance=tolerance).rotor
+    resting, at = at_rest(reduced, bearings, float(reduced.profile.speed(0.0)))
+    model = replace(mount(resting, from_shaft_rest(bearings, at)), planes=planes)
+    export_fmu(
+        model,
+        path,
+        version,
+        platforms=platforms,
+        component=component,
+        stop_time=stop_time,
+        step_size=step_size,
+    )
+    return model
 
 
 def at_rest(rotor: Any, bearings: Mapping[str, Reaction], speed: float) -> tuple[Any, RotorEquilibrium]:

@@ -51,6 +51,8 @@ def film_rungs(bearing: journal.JournalBearing, *, fixed: bool) -> tuple[FilmRun
         rungs = _named(bearing, tabulated)
     elif tabulated:
         rungs = [_map(bearing), *_plain_films(bearing, tabulated), *_grids(bearing, tabulated)]
+    elif bearing.turbulence is not None:
+        rungs = _grids(bearing, tabulated)
     elif plain:
         low, high = journal.MapFilm().slenderness_range
         own = [_map(bearing)] if low <= bearing.slenderness <= high else []
@@ -110,7 +112,7 @@ def _with_coarser_check(film: FilmRung) -> FilmRung:
 
 def extrapolated(bearing: journal.JournalBearing, cells: tuple[int, int]) -> journal.JournalBearing:
     """Return the bearing with the film in two dimensions, extrapolated from two grids."""
-    own = getattr(bearing.fitted_film, "mobility", None)
+    own = getattr(bearing.film, "mobility", None)
     grid = journal.ReynoldsFilm(cells=cells, mobility=own)
     return journal.fitted_bearing(bearing, journal.ExtrapolatedFilm(film=grid))
 

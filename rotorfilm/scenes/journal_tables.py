@@ -13,6 +13,7 @@ from ..bearings import journal
 from ..bearings.films import geometry
 from ..bearings.films.law import FilmLaw
 from ..bearings.films.mass_conserving import require_conserved_cells
+from ..bearings.films.turbulence import Turbulence
 from ..bearings.journal import JFOFilm, JournalBearing, MapFilm, ReynoldsFilm, ShortFilm
 from ..bearings.oil.oil import TAYLOR, TURBULENT, compression, film_reynolds
 from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarning, brief
@@ -22,6 +23,7 @@ from ..core.readable import Readable
 from .families import isothermal, messages, remarks_of
 from .reading import COUNTS, Count, Keyed, Variant, counts, fields_of, keys_of, made_from, takes
 from .shared_tables import Lubricant, OiledTable
+from .turbulent import AUTO, effect_of, read_turbulence, turbulent_remarks
 
 ORDER = Count(FUNCTIONS)
 
@@ -119,12 +121,16 @@ class JournalTable(OiledTable):
         Axial grooves, over the whole length or in its middle.
     feed_holes : tuple of FeedHole
         Round holes at mid-length.
+    turbulence : Turbulence or str
+        "auto": laminar below the onset and turbulent above it, where no film is named or it is one on a grid;
+        "none", the name of a closure, or a table of `Turbulence`.
     """
 
     film: Annotated[FilmLaw | ConservedOil | None, Variant("name", FILMS)] = None
     pads: tuple[geometry.Pad, ...] = ()
     grooves: tuple[geometry.Groove, ...] = ()
     feed_holes: tuple[geometry.FeedHole, ...] = ()
+    turbulence: Annotated[Turbulence | str, read_turbulence] = AUTO
 
     def __post_init__(self) -> None:
         # Without a viscosity there is no bearing before `on` has given the oil.
@@ -166,7 +172,8 @@ class JournalTable(OiledTable):
                 f'{self._supply_keys[0]} must be left out unless film is {{name = "jfo"}} or not given, '
                 f"got film {journal.film_name(named)}"
             )
-        return made_from(JournalBearing, self, film=named, grooves=(*self.grooves, *self.feed_holes))
+        openings = (*self.grooves, *self.feed_holes)
+        return made_from(JournalBearing, self, film=named, grooves=openings, turbulence=effect_of(self))
 
     def conserved(self, bearing: JournalBearing, cells: tuple[int, int] | None = None) -> JFOFilm:
         """Return the film of a bearing that conserves its oil, on cells that by default are the file's."""
@@ -188,7 +195,8 @@ class JournalTable(OiledTable):
         self, bearing: JournalBearing | JFOFilm, oil: Lubricant, speed: float, load: tuple[float, float]
     ) -> tuple[str, ...]:
         """Return what its physics leaves out and should not; see `film_remarks`."""
-        return film_remarks(bearing, oil, speed, load)
+        own = film_remarks(bearing, oil, speed, load)
+        return own if isinstance(bearing, JFOFilm) else (*turbulent_remarks(bearing, speed, load), *own)
 
     def make_map(self, report: Report) -> None:
         """Make the map of openings, where there are some and the film is one, unless it lies on disk."""
@@ -211,7 +219,7 @@ TABLE_RANGE = (0.1, 4.0)
 def has_map(bearing: JournalBearing) -> bool:
     """Return whether the map that comes with the package holds a bearing."""
     low, high = TABLE_RANGE
-    return bearing.geometry.plain and low <= bearing.slenderness <= high
+    return bearing.turbulence is None and bearing.geometry.plain and low <= bearing.slenderness <= high
 
 
 # What the physics of every rung leaves out, judged by dimensionless numbers.
@@ -344,7 +352,7 @@ def film_loss(
 
 def _quick(bearing: JournalBearing) -> JournalBearing:
     """Return the bearing with its own film, or with one on a coarse grid."""
-    film = bearing.fitted_film
+    film = bearing.film
     if isinstance(film, ShortFilm) or (isinstance(film, MapFilm) and has_map(bearing)):
         return bearing
     coarse = replace(film if isinstance(film, ReynoldsFilm) else ReynoldsFilm(), cells=COARSE)
@@ -366,7 +374,10 @@ def film_remarks(
         remarks = isothermal(remarks)
         warm: JournalBearing = warmed(bearing, film or _quick(bearing), speed, load)
         bearing, film = warm, film and film.at_temperature(warm.temperature)
-    return messages(remarks, journal_numbers(bearing, oil, speed, load, film))
+    numbers = journal_numbers(bearing, oil, speed, load, film)
+    if bearing.turbulence is not None:
+        numbers["turbulence"] = 0.0
+    return messages(remarks, numbers)
 
 
 def warmed(bearing: Any, quick: Any, speed: float, load: tuple[float, float]) -> Any:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from ..analysis import equilibrium
 from ..bearings import pads as pad_bearings
+from ..bearings.films.turbulence import Turbulence
 from ..core.errors import InputError
 from ..core.progress import Report
 from ..core.readable import Readable
@@ -17,6 +18,7 @@ from .film_rungs import minimum_radial_clearance
 from .journal_tables import film_numbers, warmed
 from .reading import Count, Keyed, Quantity, Several, Variant, fields_of, keys_of, made_from, one_of
 from .shared_tables import Lubricant, OiledTable
+from .turbulent import AUTO, effect_of, read_turbulence, turbulent_remarks
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -69,8 +71,12 @@ class PadTable(OiledTable):
         Full axial length.
     viscosity : float or None [Pa s]
         None where `[lubricant]` gives the oil.
+    turbulence : Turbulence or str
+        "auto": laminar below the onset and turbulent above it, where no film is named or it is one on a grid;
+        "none", the name of a closure, or a table of `Turbulence`.
     """
 
+    turbulence: Annotated[Turbulence | str, read_turbulence] = AUTO
     data: ClassVar[type[PadData]]
     film_key: ClassVar[str] = "film"
 
@@ -94,7 +100,7 @@ class PadTable(OiledTable):
         self, bearing: AnyPads, oil: Lubricant, speed: float, load: tuple[float, float]
     ) -> tuple[str, ...]:
         """Return what its physics leaves out and should not."""
-        return pad_remarks(bearing, oil, speed, load)
+        return (*turbulent_remarks(bearing, speed, load), *pad_remarks(bearing, oil, speed, load))
 
     @property
     def film_is_given(self) -> bool:
@@ -252,7 +258,10 @@ def pad_remarks(bearing: AnyPads, oil: Lubricant, speed: float, load: tuple[floa
     if bearing.oil is not None:
         own = isothermal(own)
         bearing = warmed(bearing, quick_pads(bearing), speed, load) if bearing.is_warming else bearing
-    return messages((*own, *common), pad_numbers(bearing, oil, speed, load))
+    numbers = pad_numbers(bearing, oil, speed, load)
+    if bearing.turbulence is not None:
+        numbers["turbulence"] = 0.0
+    return messages((*own, *common), numbers)
 
 
 def quick_pads(bearing: AnyPads) -> AnyPads:
@@ -310,7 +319,7 @@ class LobedTable(PadTable):
     def __post_init__(self) -> None:
         if (self.preset is None) is (not self.lobes):
             got = "neither" if self.preset is None else "both"
-            raise InputError(f"preset or lobes is required, one of both, got {got}")
+            raise InputError(f"preset or lobes is required, and not both, got {got}")
         for name, value in self.given(OF_PRESET).items():
             if self.lobes:
                 raise InputError(f"{name} must stand in each of lobes, or beside a preset, got {value!r}")
@@ -320,7 +329,7 @@ class LobedTable(PadTable):
         """Return the bearing; raise InputError where a value breaks its rule."""
         lobes = self.lobes or pad_bearings.lobe_set(self.preset or "", **self.given(OF_PRESET))
         film = self.film or usual_film((lobe.extent for lobe in lobes), self.radius, self.length)
-        return made_from(pad_bearings.LobedBearing, self, lobes=lobes, film=film)
+        return made_from(pad_bearings.LobedBearing, self, lobes=lobes, film=film, turbulence=effect_of(self))
 
 
 # `[pressure_dam]` of a scene: fixed pads with recesses.
@@ -370,7 +379,8 @@ class DamTable(PadTable):
         """Return the bearing; raise InputError where a value breaks its rule."""
         pads = self.pads or pad_bearings.pressure_dam_pads(**self.given((*NEEDED, *FURTHER)))
         cells = self.cells or pad_bearings.PressureDamBearing.cells
-        return made_from(pad_bearings.PressureDamBearing, self, pads=pads, cells=cells)
+        own = {"pads": pads, "cells": cells, "turbulence": effect_of(self)}
+        return made_from(pad_bearings.PressureDamBearing, self, **own)
 
 
 # `[tilting_pad]` of a scene: a bearing of tilting pads.
@@ -411,7 +421,7 @@ class TiltingTable(PadTable):
     def __post_init__(self) -> None:
         if (self.pad_count is None) is (not self.pivots):
             got = "neither" if self.pad_count is None else "both"
-            raise InputError(f"pad_count or pivots is required, one of both, got {got}")
+            raise InputError(f"pad_count or pivots is required, and not both, got {got}")
         if (self.pad_count is None) is not (self.loading is None):
             raise InputError(
                 f"loading must be given with pad_count, and only then, got {self.loading!r} and "
@@ -425,4 +435,6 @@ class TiltingTable(PadTable):
         if self.pad_count is not None and self.loading is not None:
             pivots = pad_bearings.even_pivots(self.pad_count, between_pads=LOADINGS[self.loading])
         film = self.film or usual_film([self.extent], self.radius, self.length)
-        return made_from(pad_bearings.TiltingPadBearing, self, pivots=pivots, film=film)
+        return made_from(
+            pad_bearings.TiltingPadBearing, self, pivots=pivots, film=film, turbulence=effect_of(self)
+        )

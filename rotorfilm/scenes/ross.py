@@ -20,13 +20,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import rotors
+from ..analysis import coefficients
 from ..bearings.linear import LinearBearing, TabulatedBearing
+from ..bearings.linear_system import FrequencyDependentReaction
+from ..bearings.seal import AnnularSeal
 from ..core.errors import InputError
 from ..core.files import read_text
 from ..core.inputs import arguments
 from ..core.model import Array
 from ..core.port import PlanarReaction, require_massless, require_reaction
-from ..core.results import Coefficients
+from ..core.results import Coefficients, added_mass
 
 if TYPE_CHECKING:
     from ross import BearingElement, Rotor
@@ -47,11 +50,12 @@ class RossRotor:
     rotor : ShaftRotor
         Rotor with a station for each bearing, in the order of the file, and the classical beam element.
     bearings : dict of str to PlanarReaction
-        Bearings by station: LinearBearing, or TabulatedBearing where the file has a table over speed.
+        Bearings by station: LinearBearing, TabulatedBearing where the file has a table over speed, or a
+        reaction with an added mass where it has mxx to myy.
     """
 
     rotor: rotors.ShaftRotor
-    bearings: dict[str, LinearBearing | TabulatedBearing]
+    bearings: dict[str, LinearBearing | TabulatedBearing | FrequencyDependentReaction]
 
 
 @arguments
@@ -69,8 +73,8 @@ def read_ross(path: str | Path, *, speed: float | rotors.SpeedProfile = 0.0) -> 
     ------
     InputError
         If the file is no such file, or has something that a ShaftRotor cannot represent: modal damping, no
-        rotary inertia, bearing masses, couplings that damp, supports over speed, damping by the stiffness of
-        an axial force or a torque.
+        rotary inertia, masses of bearings over speed, couplings that damp, supports over speed, damping by
+        the stiffness of an axial force or a torque.
 
     Notes
     -----
@@ -280,7 +284,11 @@ ENTRIES = {"xx": (0, 0), "xy": (0, 1), "yx": (1, 0), "yy": (1, 1)}
 
 @arguments
 def to_ross(
-    bearing: LinearBearing | TabulatedBearing, node: int, *, tag: str | None = None
+    bearing: LinearBearing | TabulatedBearing | AnnularSeal | FrequencyDependentReaction,
+    node: int,
+    *,
+    speed: float = 0.0,
+    tag: str | None = None,
 ) -> BearingElement:
     """Return stiffness and damping of a bearing, over speed if it has a table, as a bearing of ROSS.
 
@@ -289,9 +297,12 @@ def to_ross(
 
     Parameters
     ----------
-    bearing : LinearBearing or TabulatedBearing
+    bearing : LinearBearing, TabulatedBearing, or one with an added mass
+        As an `AnnularSeal`, which is taken with its added mass at the speed.
     node : int
         Node of the rotor of ROSS.
+    speed : float [rad/s]
+        Of a bearing with an added mass.
     tag : str, optional
         Name of the element.
 
@@ -305,13 +316,11 @@ def to_ross(
     InputError
         If ROSS cannot be imported, the bearing has no such coefficients, or its table has too few speeds.
     """
-    if not isinstance(bearing, LinearBearing | TabulatedBearing):
-        raise InputError(f"bearing must be a LinearBearing or a TabulatedBearing, got {bearing!r}")
-    require_reaction("bearing", bearing, planar=True)
-    stiffness, damping = np.asarray(bearing.stiffness), np.asarray(bearing.damping)
+    require_reaction("bearing", bearing, planar=True, heavy=True)
+    tables = _terms(bearing, speed)
     values: dict[str, Any] = {
         f"{letter}{entry}": table[..., row, column].tolist()
-        for letter, table in (("k", stiffness), ("c", damping))
+        for letter, table in tables.items()
         for entry, (row, column) in ENTRIES.items()
     }
     speeds = np.asarray(bearing.speeds) if isinstance(bearing, TabulatedBearing) else None
@@ -322,6 +331,19 @@ def to_ross(
         # From 3 on what ROSS calls frequency is that of the whirl.
         values["speed" if "speed" in signature(element).parameters else "frequency"] = speeds
     return element(n=node, tag=tag, **values)
+
+
+def _terms(bearing: Any, speed: float) -> dict[str, Array]:
+    """Return stiffness k, damping c and, where there is one, added mass m of a bearing."""
+    if isinstance(bearing, LinearBearing | TabulatedBearing):
+        return {"k": np.asarray(bearing.stiffness), "c": np.asarray(bearing.damping)}
+    if isinstance(bearing, AnnularSeal):
+        found = coefficients(bearing, np.zeros(2), speed)
+        return {"k": found.stiffness, "c": found.damping, "m": added_mass(found)}
+    if isinstance(bearing, FrequencyDependentReaction) and not (bearing.states or np.size(bearing.speeds)):
+        held = {"k": -np.asarray(bearing.D), "c": bearing.damping, "m": bearing.added_mass}
+        return {letter: np.asarray(table) for letter, table in held.items()}
+    raise InputError(f"bearing must be a LinearBearing, a TabulatedBearing or a seal, got {bearing!r}")
 
 
 @arguments
@@ -405,16 +427,28 @@ def over_speed(data: RossTable, tables: Mapping[str, dict[str, Any]]) -> dict[st
     return found
 
 
-def read_bearing(name: str, table: RossTable) -> LinearBearing | TabulatedBearing:
+def read_bearing(
+    name: str, table: RossTable
+) -> LinearBearing | TabulatedBearing | FrequencyDependentReaction:
     """Return the bearing of a table, whose `frequency` is the speed; see `over_speed`."""
     if "kxx" not in table:
         raise InputError(
             f"{name!r} must be a shaft element, a disk or have the coefficient kxx, got {list(table)}"
         )
-    masses = [table.get(f"m{entry}", 0.0) for entry in ENTRIES]
-    if any(np.any(np.asarray(mass)) for mass in masses):
-        raise InputError(f"mxx, mxy, myx, myy must be 0, got {masses} in {name!r}")
     stiffness, damping = (_entries(table, letter) for letter in "kc")
+    masses = np.array([np.asarray(table.get(f"m{entry}", 0.0)).ravel()[0] for entry in ENTRIES])
+    uneven = any(np.ptp(np.asarray(table.get(f"m{entry}", 0.0))) for entry in ENTRIES)
+    if masses.any() and (uneven or len(stiffness) > 1 or len(damping) > 1):
+        raise InputError(f"mxx, mxy, myx, myy must be 0 beside coefficients over speed, got {name!r}")
+    if masses.any():
+        return FrequencyDependentReaction(
+            A=np.zeros((0, 0)),
+            B=np.zeros((0, 2)),
+            C=np.zeros((2, 0)),
+            D=-stiffness[0],
+            damping=damping[0],
+            added_mass=masses.reshape(2, 2),
+        )
     if len(stiffness) == len(damping) == 1:
         return LinearBearing(stiffness=stiffness[0], damping=damping[0])
     speeds = np.asarray(table.get("frequency", ()), dtype=float)

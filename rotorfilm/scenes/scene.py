@@ -40,6 +40,7 @@ from .shared_tables import (
     film_tables,
     oil_remarks,
 )
+from .turbulent import decided
 
 if TYPE_CHECKING:
     from ..bearings.journal import JournalBearing
@@ -160,6 +161,8 @@ class Scene:
             raise InputError("operation is required and missing: the journal has no speed and no load")
         if self.operation.load is None and self.rigid_rotor is None:
             raise InputError(NO_LOAD)
+        own = {name: decided(table, self) for name, table in film_tables(self.tables).items()}
+        object.__setattr__(self, "tables", {**self.tables, **own})
 
     def __getattr__(self, name: str) -> Any:
         """Return the table of a family by its name; None if the scene has none."""
@@ -284,6 +287,11 @@ class Scene:
     def given(self) -> Mapping[str, Any]:
         """The tables as the file has them, with its units; empty of a scene that was made in Python."""
         return MappingProxyType(vars(self).get("_given", {}))
+
+    def save(self, path: str | PathLike[str]) -> Path:
+        """Write the tables as a scene file, with the units as read; return the path."""
+        save: Any = brought("scenes.save_scene.save_scene")
+        return Path(save(self, path))
 
     def report(self, **asked: Any) -> Any:
         """Return a report of the scene, of which `save("report.html")` makes one page.

@@ -12,6 +12,7 @@ import numpy as np
 
 from .. import rotors
 from ..analysis import AxialStage, DisturbingStage, Impeller
+from ..bearings.assemblies import Parallel
 from ..bearings.journal import JournalBearing, MapFilm, MomentCarryingJournal, ReynoldsFilm, TiltLevel
 from ..bearings.linear import LinearBearing
 from ..bearings.seal import AnnularSeal
@@ -23,6 +24,7 @@ from ..core.port import Reaction
 from . import reading
 from .journal_tables import JournalTable
 from .shared_tables import LubricantTable, UnbalanceTable
+from .thrust import ThrustTable
 
 # What a shaft of a scene is made of: its pieces, couplings, disks, and bearings.
 
@@ -162,6 +164,8 @@ class BearingTable:
         Beside that stiffness.
     seal : AnnularSeal or None
         Seal with its added mass, which a run over time leaves out.
+    thrust : ThrustTable or None
+        A thrust bearing with its axial load, of a viscosity; with it the shaft also moves along its axis.
     support : Support or None
         Its housing; rigid unless given.
     tilt : TiltLevel or None
@@ -179,6 +183,7 @@ class BearingTable:
     stiffness: float | Pair | None = None
     damping: float | Pair = 0.0
     seal: Annotated[AnnularSeal | None, reading.Table(SEAL)] = None
+    thrust: ThrustTable | None = None
     support: rotors.Support | None = None
     tilt: Annotated[TiltLevel | None, reading.named(TILTS)] = None
     bush_offset: Annotated[tuple[float, float], reading.Several(reading.Quantity("m"), 2, 2)] = (0.0, 0.0)
@@ -192,8 +197,8 @@ class BearingTable:
                 "tilt must be given for a bush_offset or a bush_tilt, "
                 f"got {self.bush_offset!r} m and {self.bush_tilt!r} rad"
             )
-        if sum(kind is not None for kind in (self.journal, self.stiffness, self.seal)) != 1:
-            raise InputError("journal, or else stiffness or seal, is required, got several or none")
+        if sum(kind is not None for kind in (self.journal, self.stiffness, self.seal, self.thrust)) != 1:
+            raise InputError("journal, or else stiffness, seal or thrust, is required, got several or none")
         if self.journal is None or self.journal.has_lubricant:
             self.build()
         self.station()
@@ -206,8 +211,10 @@ class BearingTable:
             else replace(self, journal=self.journal.on(f"{where}.journal", lubricant))
         )
 
-    def build(self) -> JournalBearing | MomentCarryingJournal | LinearBearing | AnnularSeal:
+    def build(self) -> JournalBearing | MomentCarryingJournal | LinearBearing | AnnularSeal | Parallel:
         """Return the bearing."""
+        if self.thrust is not None:
+            return self.thrust.under_shaft()
         if self.seal is not None:
             return self.seal
         if self.journal is not None:
@@ -228,7 +235,8 @@ class BearingTable:
 
     def station(self) -> rotors.Station:
         """Return where it is."""
-        return reading.made_from(rotors.Station, self, feels_tilt=self.tilt is not None)
+        feels_tilt = self.thrust is not None or self.tilt is not None
+        return reading.made_from(rotors.Station, self, feels_tilt=feels_tilt)
 
 
 class BearingList(reading.TableList):
@@ -465,6 +473,7 @@ class ShaftTable(reading.Taking):
             stations=tuple(bearing.station() for bearing in self.bearings),
             unbalances=tuple(reading.made_from(rotors.Unbalance, one) for one in (*self.unbalances, *extra)),
             speed=speed,
+            axial=any(bearing.thrust is not None for bearing in self.bearings),
         )
 
     def build_bearings(self) -> dict[str, Reaction]:
@@ -475,6 +484,12 @@ class ShaftTable(reading.Taking):
         """Return the names of what a question may be about: bearings, and probes unless it is for forces."""
         probes = () if forces else tuple(probe.name for probe in self.probes)
         return (*(bearing.name for bearing in self.bearings), *probes)
+
+    def require_lateral(self, what: str) -> None:
+        """Raise InputError, naming what it is for, where the shaft also moves along its axis."""
+        thrust = [bearing.name for bearing in self.bearings if bearing.thrust is not None]
+        if thrust:
+            raise InputError(f"shaft.bearings must have no thrust bearing for {what}, got {thrust}")
 
     def require_node(self, name: str, node: int) -> None:
         """Raise InputError unless the shaft has this node."""

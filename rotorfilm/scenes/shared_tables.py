@@ -65,7 +65,7 @@ class OperationTable:
 @dataclass(frozen=True, kw_only=True)
 @reading.fields_of(RigidRotor, without=("speed", "gravity", "static_force", "position", "velocity"))
 class RigidRotorTable(reading.Taking):
-    """`[rigid_rotor]`: a rigid rotor in translation, as much of it as one bearing carries."""
+    """`[rigid_rotor]`: a rigid rotor in translation, the share that one bearing carries."""
 
     def __post_init__(self) -> None:
         self.build(speed=0.0, load=(0.0, 0.0))

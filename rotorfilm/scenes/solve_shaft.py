@@ -18,7 +18,7 @@ from ..bearings.seal import AnnularSeal
 from ..core.answers import ISOTHERMAL
 from ..core.errors import InputError, RotorfilmError
 from ..core.model import Array
-from ..core.port import Reaction
+from ..core.port import Reaction, freedoms_of
 from ..core.progress import Report, part_of, silent
 from ..core.readable import Drawable
 from ..rotors import ShaftElement, ShaftRotor
@@ -79,7 +79,7 @@ class RotorAnswer(Drawable):
     level_one: analysis.StabilityLevelOne | None = None
 
     def _own_units(self) -> dict[str, str]:
-        return {name: "N" if "_force_" in name else "m" for name in self.amplitudes}
+        return {name: amplitude_unit(name) for name in self.amplitudes}
 
 
 def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
@@ -160,7 +160,7 @@ def response_columns(answer: RotorAnswer) -> dict[str, list[float]]:
     columns = {"speed [rad/s]": np.asarray(answer.response.frequency).tolist()}
     for k, name in enumerate(answer.response.output_labels):
         phasor = np.asarray(answer.response.complex)[k, 0]
-        unit = _unit(name)
+        unit = amplitude_unit(name)
         columns[f"{name} [{unit}]"] = np.abs(phasor).tolist()
         columns[f"{name} phase [rad]"] = np.angle(phasor).tolist()
     return columns
@@ -172,14 +172,16 @@ def _known(values: Array) -> list[float | None]:
 
 def _amplitudes(response: control.FrequencyResponseData) -> dict[str, Array]:
     values = np.abs(np.asarray(response.complex)[:, 0])
-    return {name: values[k] for k, name in enumerate(response.output_labels) if _unit(name) in ("m", "N")}
+    labels = enumerate(response.output_labels)
+    return {name: values[k] for k, name in labels if not amplitude_unit(name).endswith("/s")}
 
 
-def _unit(name: str) -> str:
-    for part, unit in (("_force_", "N"), ("_moment_", "N m"), ("_tilt_rate_", "rad/s"), ("_tilt_", "rad")):
+def amplitude_unit(name: str) -> str:
+    """Return the unit of an output of an unbalance response."""
+    for part, unit in (("_force_", "N"), ("_moment_", "N m"), ("tilt_rate_", "rad/s"), ("tilt_", "rad")):
         if part in name:
             return unit
-    return "m/s" if name.rpartition("_")[2] in ("vx", "vy") else "m"
+    return "m/s" if name.rpartition("_")[2] in ("vx", "vy", "vz") else "m"
 
 
 def added_unbalance(scene: Scene) -> tuple[UnbalanceTable, ...]:
@@ -275,7 +277,11 @@ def shaft_remarks(
 ) -> tuple[str, ...]:
     """Return the neglected effects that matter, one line each, of a shaft in its bearings at a speed."""
     seals = {name: one for name, one in bearings.items() if isinstance(one, AnnularSeal)}
-    stiff = {name: seals.get(name, LinearBearing(stiffness=STIFF)) for name in bearings}
+    stiff = {
+        name: seals.get(name, LinearBearing(stiffness=STIFF))
+        for name, bearing in bearings.items()
+        if "z" not in freedoms_of(bearing)
+    }
     at = analysis.rotor_equilibrium(rotor, stiff, speed)
     lines = list(beam_remarks(rotor))
     for name, given in bearings.items():

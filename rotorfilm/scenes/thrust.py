@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
@@ -10,10 +11,11 @@ from scipy.optimize import brentq
 
 from ..analysis import coefficients, equilibrium
 from ..bearings.assemblies import Parallel
+from ..bearings.own_reaction import as_reaction
 from ..bearings.thrust import TURBULENT_PADS, ThrustBearing, ThrustLosses, TiltingThrustBearing, double_acting
 from ..core.errors import InputError, require_number, require_positive
 from ..core.model import Array
-from ..core.port import quasi_static, static_force
+from ..core.port import Reaction, quasi_static, static_force
 from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.results import Coefficients, Equilibrium
@@ -24,8 +26,8 @@ from .shared_tables import Lubricant, OiledTable, oil_remarks
 if TYPE_CHECKING:
     from .scene import Scene
 
-WEDGE = 50.0
-"""Film over the pivots or lands, over the least film, up to which that is sought."""
+NARROW, WEDGE = 0.5, 50.0
+"""Films over the pivots or lands, over the least film, between which that is sought."""
 
 MOST_PADS = 64
 """Most pads of one side."""
@@ -120,12 +122,42 @@ class ThrustTable(OiledTable):
             )
         return double_acting(pads, self.play)
 
+    def under_shaft(self) -> Parallel:
+        """Return the bearing with its axial load, from a table where the pads have one.
+
+        Raises
+        ------
+        InputError
+            If it has no viscosity, or pads on one side have no load.
+        """
+        if self.viscosity is None:
+            raise InputError("viscosity must be given of a thrust bearing of a shaft, got None")
+        pads = self.one_side()
+        with suppress(InputError):
+            pads = replace(pads, tabulated=True)
+        if self.play is not None:
+            pair = double_acting(pads, self.play)
+            return pair if self.axial_load is None else Parallel((pair, _pushed(self.load[0], self.play)))
+        return Parallel((replace(pads, gap=pads.film_scale), _pushed(self.load[0], pads.film_scale)))
+
     @property
     def load(self) -> tuple[float, float, float]:
         """The external force along z and no moments [N], [N m]; InputError where it is not given."""
         if self.axial_load is None:
             raise InputError("thrust.axial_load is required for an equilibrium, got none")
         return -self.axial_load, 0.0, 0.0
+
+
+def _pushed(force: float, film: float) -> Reaction:
+    """Return a steady force along z [N] on a shaft that moves by about a film [m]."""
+    return as_reaction(
+        lambda z, vz, speed: (force,),
+        jacobian=lambda z, vz, speed: ((0.0, 0.0, 0.0),),
+        freedoms=("z",),
+        clearance=min(film, 1e-2),
+        nominal_force=abs(force),
+        name="axial_load",
+    )
 
 
 # What a thrust bearing answers: its equilibrium, stiffness and damping, losses and temperature.
@@ -268,7 +300,9 @@ def rest_at_film(bearing: Any, film: float, speed: float) -> ThrustRest:
     def excess(over: float) -> float:
         return float(pads.minimum_film([over * film - pads.gap, 0.0, 0.0])) - film
 
-    place = np.array([film * brentq(excess, 1.0, WEDGE, rtol=1e-10) - pads.gap, 0.0, 0.0])
+    if not excess(NARROW) < 0.0 < excess(WEDGE):
+        raise InputError(f"smallest_film must be one that the pads can have over their lands, got {film!r}")
+    place = np.array([film * brentq(excess, NARROW, WEDGE, rtol=1e-10) - pads.gap, 0.0, 0.0])
     if isinstance(bearing, Parallel) and place[0] > 0.0:
         raise InputError(
             f"smallest_film must leave half of the play, {pads.gap!r} m, over pivots or lands, got {film!r}"

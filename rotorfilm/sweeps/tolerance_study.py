@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -14,7 +15,9 @@ from ..core.errors import (
     AbsentError,
     InputError,
     RotorfilmError,
+    brief,
     require_count,
+    require_number,
     require_positive,
     warn_user,
 )
@@ -23,11 +26,15 @@ from ..core.inputs import arguments
 from ..core.model import Array
 from ..core.progress import Report, silent
 from ..core.readable import Drawable
+from ..core.units import parse_quantity
 from ..scenes.reading import quantity_of
 from ..scenes.scene import Scene, read_tables, varied
 from .sweep_run import sweep
 
 SAMPLE = "sample"
+
+CELSIUS_SIGN = re.compile(r"(?:deg|\N{DEGREE SIGN})C$")
+"""How the unit of a temperature ends that has a zero of its own."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,20 +43,20 @@ class ToleranceStudy(Drawable):
 
     Attributes
     ----------
-    quantity : str
-    unit : str
+    quantity, unit : str
+        Name of the quantity and its unit.
     nominal : float
-        The quantity without deviations.
+        Value of the quantity without deviations.
     mean, deviation : float
-        Of the samples, and their standard deviation.
+        Mean and standard deviation of the samples that have an answer.
     values : ndarray, shape (n_samples,)
-        The quantity of each sample; not-a-number where it has none.
+        Value of the quantity in each sample. A sample without an answer has not-a-number.
     parameters : dict of str to ndarray, shape (n_samples,)
-        Drawn values, in the unit of each.
+        Values that were drawn for each parameter, in its unit.
     effects : dict of str to (float, float)
-        The quantity at the low and at the high end of each parameter, the others nominal.
+        Values of the quantity at the low and at the high end of each parameter. The others are nominal.
     failures : int
-        Samples without an answer.
+        Number of samples without an answer.
     """
 
     quantity: str
@@ -118,21 +125,23 @@ def scatter_study(
     Parameters
     ----------
     solve : callable
-        Takes the parameters by their names and returns the quantity. A RotorfilmError of it is a failure.
+        It takes the parameters by their names and returns the quantity. A sample fails where it raises a
+        RotorfilmError or returns a number that is not finite.
     nominal, tolerances : mapping of str to float
         Nominal values, and the largest deviation of those that scatter, in the same units. All values within
-        are equally likely, and independent.
+        the tolerances are equally likely and independent. A deviation is smaller than its nominal value, so
+        that no sign changes; where the nominal value is 0 it may have any size.
     quantity, unit : str
-        What `solve` returns, for tables and pictures.
+        Name and unit of what `solve` returns, for tables and pictures.
     samples, seed : int
-        Samples, and the seed of their random numbers.
+        Number of samples, and the seed of their random numbers.
 
     Raises
     ------
     InputError
         If an argument breaks its rule.
     AbsentError
-        If nothing has an answer without deviations.
+        If there is no answer without deviations, or in no sample.
     """
     draws = _draws(nominal, tolerances, samples, seed)
 
@@ -166,22 +175,23 @@ def tolerance_study(
     scene : path or mapping
         A scene file, or its tables; of a shaft with a question.
     tolerances : mapping of str to float or str
-        Largest deviation by dotted key, as `{"journal.clearance": "5 um", "journal.viscosity": "10 %"}`. All
-        values within are equally likely, and independent.
+        Largest deviation by dotted key, as `{"journal.clearance": "5 um", "journal.viscosity": "10 %"}`. A
+        percentage is a share of the nominal value. The deviation of a temperature is a difference, "5 degC"
+        the same as "5 K", and no percentage. The rest is as in `scatter_study`.
     quantity : str
-        A number that `sweep` has, as "minimum_film"; by default the answer to the question, or the
+        A number that `sweep` returns, as "minimum_film"; by default it is the answer to the question, or the
         eccentricity ratio.
     samples, seed : int
-        Samples, and the seed of their random numbers.
+        Number of samples, and the seed of their random numbers.
     changes, path, workers, report
-        As of `sweep`.
+        They are the same as in `sweep`.
 
     Raises
     ------
     InputError
         If an argument breaks its rule, a key is no quantity of the scene, or there is no such quantity.
     AbsentError
-        If the scene has no answer without deviations.
+        If the scene has no answer without deviations, or in no sample.
     """
     tables = varied(scene if isinstance(scene, Mapping) else read_tables(scene), changes)
     nominal, deviations = {}, {}
@@ -202,6 +212,8 @@ def tolerance_study(
 
 def _read(tables: Mapping[str, Any], key: str, tolerance: Any) -> tuple[float, float]:
     """Return the value of a key and its largest deviation, in SI."""
+    if not isinstance(key, str):
+        raise InputError(f"tolerances must have dotted keys of the scene, got {brief(key)}")
     value: Any = tables
     for part in key.split("."):
         try:
@@ -211,10 +223,24 @@ def _read(tables: Mapping[str, Any], key: str, tolerance: Any) -> tuple[float, f
     reader = quantity_of(Scene, key.split("."))
     if reader is None or isinstance(value, list):
         raise InputError(f"tolerances must have keys of quantities, got {key!r} = {value!r}")
-    nominal, share = reader.parse(value), str(tolerance).strip().removesuffix("%")
-    if share != str(tolerance).strip():
-        return nominal, abs(nominal) * float(share) / 100.0
-    return nominal, reader.parse(tolerance)
+    name, nominal = f"tolerances[{key!r}]", reader.parse(value)
+    if isinstance(tolerance, bool) or not isinstance(tolerance, int | float | str):
+        raise InputError(f"{name} must be a number or a string with a unit, got {brief(tolerance)}")
+    text = tolerance.strip() if isinstance(tolerance, str) else tolerance
+    try:
+        if not str(text).endswith("%"):
+            return nominal, _difference(text, reader.unit)
+        if not reader.absolute:
+            return nominal, abs(nominal) * parse_quantity(text, "1")
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from None
+    raise InputError(f"{name} must be a difference of temperatures in K or degC, got {brief(text)}")
+
+
+def _difference(value: str | float, unit: str) -> float:
+    """Return a deviation in SI; one of 5 degC is 5 K."""
+    text = CELSIUS_SIGN.sub("K", value) if isinstance(value, str) and unit == "K" else value
+    return parse_quantity(text, unit)
 
 
 def _draws(
@@ -222,6 +248,7 @@ def _draws(
 ) -> dict[str, Array]:
     """Return the values of all parameters: nominal, the ends of each in turn, and samples."""
     require_count("samples", samples, 2)
+    require_count("seed", seed, 0)
     if not tolerances:
         raise InputError("tolerances must have at least one parameter, got none")
     rng, draws = np.random.default_rng(seed), {}
@@ -231,6 +258,12 @@ def _draws(
                 f"tolerances must have names of nominal values, {', '.join(nominal)}, got {name!r}"
             )
         require_positive(f"tolerances[{name!r}]", tolerance)
+        size = abs(require_number(f"nominal[{name!r}]", nominal[name]))
+        if 0.0 < size <= tolerance:
+            raise InputError(
+                f"tolerances[{name!r}] must be below {size:.6g}, the size of the nominal value, so that no "
+                f"sign changes, got {tolerance:.6g}"
+            )
         ends = np.zeros(2 * len(tolerances))
         ends[2 * k : 2 * k + 2] = -1.0, 1.0
         draws[name] = nominal[name] + tolerance * np.concatenate(
@@ -241,10 +274,13 @@ def _draws(
 
 def _study(draws: dict[str, Array], values: Array, quantity: str, unit: str) -> ToleranceStudy:
     first = 1 + 2 * len(draws)
+    values = np.where(np.isfinite(values), values, np.nan)
     if not np.isfinite(values[0]):
         raise AbsentError(f"{quantity} must have a value without deviations, got none")
     drawn = values[first:]
     failures = int(np.count_nonzero(~np.isfinite(drawn)))
+    if failures == drawn.size:
+        raise AbsentError(f"{quantity} must have a value in at least one sample, got none in {failures}")
     if failures:
         warn_user(f"{failures} of {drawn.size} samples have no answer, and are not in the histogram")
     return ToleranceStudy(

@@ -162,7 +162,7 @@ def test_a_table_goes_through_csv_with_the_names_of_its_freedoms(tmp_path) -> No
     assert_allclose(again.stiffness, TABLE.stiffness, rtol=1e-8)
     assert_allclose(again.damping, TABLE.damping, rtol=1e-8)
     path.write_text(path.read_text().replace("k_z_tilt_x", "k_z_twist", 1))
-    with pytest.raises(InputError, match=r"must have the columns .*k_z_tilt_x"):
+    with pytest.raises(InputError, match="must have a column 'k_z_tilt_x'"):
         TabulatedBearing.from_csv(path)
 
 

@@ -77,11 +77,31 @@ def test_csv_and_back(table, tmp_path):
     assert_allclose(again.stiffness, table.stiffness, rtol=1e-8)
     assert_allclose(again.damping, table.damping, rtol=1e-8)
     (tmp_path / "other.csv").write_text("a,b\n1,2\n")
-    with pytest.raises(InputError, match="must have the columns"):
+    with pytest.raises(InputError, match="must have a column 'speed', got"):
         TabulatedBearing.from_csv(tmp_path / "other.csv")
     (tmp_path / "words.csv").write_text(path.read_text().replace("50,", "fifty,", 1))
-    with pytest.raises(InputError, match="must hold numbers below its heading"):
+    with pytest.raises(InputError, match=r"must hold numbers below '(kxx|speed)'"):
         TabulatedBearing.from_csv(tmp_path / "words.csv")
+
+
+def test_foreign_tables_are_read_in_their_units_and_order(tmp_path):
+    path = tmp_path / "foreign.csv"
+    path.write_text("Kyy (kN/mm),n,hor. [N/um],Cxx [N s/mm],note\n2,600,1,3,a\n4,1200,2,5,b\n")
+    found = TabulatedBearing.from_csv(path, columns={"Kxx": "hor. [N/um]", "speed": "n [rpm]"})
+    assert_allclose(found.speeds, np.array([600.0, 1200.0]) * np.pi / 30.0)
+    assert_allclose(found.stiffness[0], [[1e6, 0.0], [0.0, 2e6]])
+    assert_allclose(found.damping[1], [[5e3, 0.0], [0.0, 0.0]])
+    again = found.to_csv(tmp_path / "own.csv", speed_unit="rpm")
+    assert again.read_text().splitlines()[1].startswith("600,1000000,")
+    assert_allclose(TabulatedBearing.from_csv(again).speeds, found.speeds, rtol=1e-8)
+    for columns, message in (
+        ({"Kxx": "hor.", "speed": "rpm"}, "must have a column 'rpm'"),
+        ({"K": "hor."}, "columns must be of speed, kxx.*got 'k'"),
+        ({"Kxx": "hor. [N/um]"}, "must have a column 'speed'"),
+        ({"Kxx": "hor. [N]", "speed": "n [rpm]"}, "must hold numbers below 'kxx': .*measured in N/m"),
+    ):
+        with pytest.raises(InputError, match=message):
+            TabulatedBearing.from_csv(path, columns=columns)
 
 
 @pytest.mark.parametrize("speed", [49.9, 400.1, [100.0, 401.0], -100.0])

@@ -175,7 +175,7 @@ def test_load_vector_turns_the_answer(run, scene):
         ({"journal__clearance": '"nan"'}, 2, "journal.clearance: quantity must be finite, got 'nan'"),
         ({"journal__film": '{ name = "shirt" }'}, 2, "got 'shirt'; did you mean 'short'?"),
         ({"operation__load": "1e20 N"}, 1, "error: load must be within the film's capacity"),
-        ({"operation__speed": "0 rpm"}, 1, "error: speed must make the film carry load"),
+        ({"operation__speed": "0 rpm"}, 1, "error: speed must let the film carry the load"),
     ],
 )
 def test_mistake_gives_one_line_and_its_exit_code(run, scene, changes, code, message):

@@ -190,6 +190,7 @@ MADE = [
     rf.Disk(node=0, mass=1.0, diametral_inertia=0.01, polar_inertia=0.02),
     rf.rotors.Support(mass=5.0, stiffness=1e7, damping=10.0),
     rf.rotors.TiltSpring(node=0, stiffness=1e4, damping=10.0),
+    rf.Probe(node=0, name="p", angle=0.3),
     rf.Unbalance(node=0, unbalance=1e-4, unbalance_angle=0.5),
     SHAFT,
     rf.rotors.ReducedRotor(rotor=SHAFT, modes=2, speed=100.0, gravity=SHAFT.gravity),

@@ -17,7 +17,8 @@ from .public_objects import BALL, BEARING, MADE, PUBLIC
 DAMPER = next(one for one in MADE if isinstance(one, rf.PorousDamper))
 
 RESULTS = {
-    "AxialStatics", "BallLoads", "BallEquilibrium", "BasinScan", "Campbell", "CircularOrbit", "ClearanceCheck", "CoSimulation",
+    "AxialStatics", "BallLoads", "BallEquilibrium", "BasinScan", "Campbell", "CircularOrbit",
+    "ClearanceCheck", "CoSimulation",
     "Coefficients", "VerifiedCriticalMass", "VerifiedThreshold", "CouplingReport", "CrackedResponse",
     "CriticalMass", "CriticalSpeed", "DamperTurn", "Equilibrium", "FilmDamping", "FilmSystem",
     "HeatedJFOState", "HeatedState", "HopfPoint", "InertialCoefficients", "JFOOrbit", "JFOState",

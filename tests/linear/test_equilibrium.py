@@ -162,7 +162,7 @@ def test_load_beyond_capacity_is_named_with_the_force_at_the_limit(bearing, ocvi
 
 
 def test_no_wedge_without_rotation(bearing):
-    with pytest.raises(EquilibriumError, match=r"speed must make the film carry load.* 0\.0 rad/s.*525"):
+    with pytest.raises(EquilibriumError, match=r"speed must let the film carry the load.* 0\.0 rad/s.*525"):
         equilibrium(bearing, [0.0, -525.0], 0.0)
 
 

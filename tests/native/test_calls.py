@@ -364,7 +364,7 @@ def test_unknown_phases_are_refused_and_a_reset_is_possible(unzipped, kind, fiel
     rotor = unzipped(ROTOR).open(kind).start()
     save, restore = roundtrip(rotor)
     content = save()
-    place = {"phase": 48, "phase to return to": 88}[field]
+    place = {"phase": 48, "phase to return to": 96}[field]
     exchange = kind in (FMU2Model, FMU3Model)
     (phase,) = struct.unpack_from("<I", content, 48)
     assert phase == (8 if exchange else 32)
@@ -382,7 +382,7 @@ def test_a_state_that_is_not_finite_is_refused_by_its_value(unzipped, kind, refu
     content, wrong = save(), struct.pack("<d", np.inf)
     with refused(ERROR, "time of the FMU state must be finite, got inf"):
         restore(sealed(content[:24] + wrong + content[32:]))
-    last = (len(content) - 96) // 8 - 1  # behind the header
+    last = (len(content) - 104) // 8 - 1  # behind the header
     with refused(ERROR, f"value {last} of the FMU state must be finite, got inf"):
         restore(sealed(content[:-8] + wrong))
 

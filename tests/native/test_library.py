@@ -19,13 +19,13 @@ LARGEST = {
     "rotorfilm_states": 105_000,
     "rotorfilm_systems": 90_000,
     "rotorfilm_bushes": 60_000,
-    "rotorfilm_grids": 122_000,
+    "rotorfilm_grids": 155_000,
     "rotorfilm_grid_systems": 144_000,
     "rotorfilm_heat": 110_000,
     "rotorfilm_pads": 74_000,
     "rotorfilm_oil": 112_000,
-    "rotorfilm_loops": 352_000,
-    "rotorfilm_master": 330_000,
+    "rotorfilm_loops": 385_000,
+    "rotorfilm_master": 362_000,
 }
 """Bytes of each library on Linux, x86_64: what it has, and some room for other compilers."""
 

@@ -13,9 +13,11 @@ import rotorfilm as rf
 from rotorfilm.analysis import clearance_check, vibration_limit
 from rotorfilm.charts import CurveMark, FieldMark, Picture, PicturePanel
 from rotorfilm.cli.main import main
+from rotorfilm.core import AbsentError
 from rotorfilm.reports import Report, ReportSection, Verdict
 from rotorfilm.reports.page import SHOWN, thinned
 from rotorfilm.sweeps import scatter_study, tolerance_study
+from rotorfilm.sweeps.tolerance_study import _read
 
 pytest.importorskip("plotly")
 
@@ -150,8 +152,39 @@ def test_clearances_are_compared_with_the_scaled_response():
     np.testing.assert_allclose(small.vibration, 6.0 * 0.6e-6)
     assert vibration_limit(48000.0 * RPM) == pytest.approx(12.7e-6)
     assert vibration_limit(600.0 * RPM) == pytest.approx(25.4e-6)
-    with pytest.raises(rf.InputError, match="places must be in the response"):
+    with pytest.raises(rf.InputError, match="clearances and probes must have places of the response"):
         clearance_check(response(x, y, speeds), {"seal": 1e-4}, 8000 * RPM, 12000 * RPM)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"maximum_speed": 13000.0 * RPM}, "response must cover minimum_speed to maximum_speed"),
+        ({"minimum_speed": 3000.0 * RPM}, "response must cover minimum_speed to maximum_speed"),
+        ({"maximum_speed": np.nan}, "maximum_speed must be finite and positive"),
+        ({"minimum_speed": -200.0}, "minimum_speed must be finite and positive"),
+        ({"minimum_speed": 12500.0 * RPM}, "minimum_speed must be at most maximum_speed"),
+        ({"response": 5}, "response must be a control.FrequencyResponseData, got 5"),
+    ],
+)
+def test_clearances_are_checked_over_the_whole_operating_range_alone(change, message):
+    speeds = np.array([4000.0, 8000.0, 12000.0]) * RPM
+    given = {
+        "response": response(np.ones(3), np.ones(3), speeds),
+        "minimum_speed": 8000.0 * RPM,
+        "maximum_speed": 12000.0 * RPM,
+    }
+    clearance_check(clearances={"brg": 1e-4}, **given)
+    with pytest.raises(rf.InputError, match=message):
+        clearance_check(clearances={"brg": 1e-4}, **{**given, **change})
+
+
+@pytest.mark.parametrize("k", [0, 2])
+def test_clearances_are_not_checked_by_a_response_that_is_not_a_number(k):
+    x = np.ones(3)
+    x[k] = np.nan
+    with pytest.raises(rf.InputError, match="response must be finite"):
+        clearance_check(response(x, x, np.array([4.0, 8.0, 12.0])), {"brg": 1e-4}, 8.0, 12.0)
 
 
 @pytest.mark.closed_form
@@ -164,6 +197,38 @@ def test_a_study_of_tolerances_has_the_effects_and_the_scatter_of_a_linear_law()
     assert study.mean == pytest.approx(5.0, abs=0.01)
     assert study.plot("tornado").get_xlabel() == "value [1]"
     assert "20000 samples" in str(study)
+
+
+def test_samples_that_are_not_finite_are_failures():
+    """A law that is infinite in the lower part of the range of its parameter."""
+    with pytest.warns(rf.ValidityWarning, match="samples have no answer"):
+        study = scatter_study(lambda a: 1.0 / (a - 1.0) if a > 1.0 else np.inf, {"a": 1.5}, {"a": 1.0})
+    np.testing.assert_array_equal(np.isnan(study.values), study.parameters["a"] <= 1.0)
+    assert study.failures == np.count_nonzero(study.parameters["a"] <= 1.0) > 0
+    assert np.isfinite([study.mean, study.deviation]).all()
+    assert np.isnan(study.effects["a"][0])
+    assert study.effects["a"][1] == pytest.approx(1.0 / 1.5)
+    with pytest.raises(AbsentError, match="value in at least one sample, got none in 200"):
+        scatter_study(lambda a: a if a == 1.5 else np.inf, {"a": 1.5}, {"a": 1.0})
+
+
+def test_deviations_of_studies_keep_the_signs_and_the_seed_is_a_count():
+    with pytest.raises(
+        rf.InputError, match=r"tolerances\['a'\] must be below 1, the size of the nominal value"
+    ):
+        scatter_study(lambda a: a, {"a": 1.0}, {"a": 2.0})
+    with pytest.raises(rf.InputError, match=r"nominal\['a'\] must be a single finite number"):
+        scatter_study(lambda a: a, {"a": np.nan}, {"a": 2.0})
+    with pytest.raises(rf.InputError, match="seed must be an integer, at least 0, got -1"):
+        scatter_study(lambda a: a, {"a": 1.0}, {"a": 0.5}, seed=-1)
+    assert scatter_study(lambda a: a, {"a": 0.0}, {"a": 2.0}).effects == {"a": (-2.0, 2.0)}
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("text", ["5 degC", "5 K", 5.0, "5 \N{DEGREE SIGN}C"])
+def test_a_deviation_of_a_temperature_is_a_difference(text):
+    tables = {"lubricant": {"supply_temperature": "45 degC"}}
+    assert _read(tables, "lubricant.supply_temperature", text) == (318.15, 5.0)
 
 
 def test_a_study_of_tolerances_of_a_scene_has_units_and_refuses_what_is_no_quantity():
@@ -180,9 +245,19 @@ def test_a_study_of_tolerances_of_a_scene_has_units_and_refuses_what_is_no_quant
         ({"journal.film": 1}, "keys that the scene gives"),
         ({"title": 1}, "keys of quantities"),
         ({}, "at least one parameter"),
+        ({"journal.clearance": "abc %"}, r"tolerances\['journal.clearance'\]: quantity must be a number"),
+        (
+            {"journal.clearance": "5 degC"},
+            r"tolerances\['journal.clearance'\]: quantity must be measured in m",
+        ),
+        ({"journal.clearance": None}, r"tolerances\['journal.clearance'\] must be a number or a string"),
+        ({"journal.clearance": "150 %"}, r"tolerances\['journal.clearance'\] must be below 0.0001"),
+        ({5: 1}, "dotted keys of the scene, got 5"),
     ):
         with pytest.raises(rf.InputError, match=message):
             tolerance_study(scene, wrong, samples=4)
+    with pytest.raises(rf.InputError, match="must be a difference of temperatures in K or degC, got '10 %'"):
+        _read({"lubricant": {"supply_temperature": 318.0}}, "lubricant.supply_temperature", "10 %")
     with pytest.raises(rf.InputError, match=r"quantity must be one of .*minimum_film"):
         tolerance_study(scene, {"journal.clearance": "5 um"}, "height", samples=2, workers=1)
 

@@ -29,7 +29,7 @@ from rotorfilm.rotors import (
     mount,
     reduce_rotor,
 )
-from rotorfilm.scenes import export_rotor_fmu, parse_scene
+from rotorfilm.scenes import export_machine_fmu, export_rotor_fmu, parse_scene
 from rotorfilm.scenes.export_scene import export_scene
 
 SPEED = 1500.0 * np.pi / 30.0
@@ -259,3 +259,28 @@ def test_scene_becomes_one_fmu_of_rotor_and_bearings_that_moves_as_the_model(tmp
         found = fmu.get()
     for name in ("left_x", "left_y", "right_y"):
         assert found[name] == pytest.approx(wanted[name], abs=1e-10)
+
+
+def run_machine(path, outputs, start):
+    given = {f"machine.{name}": value for name, value in start.items()}
+    shown = [f"machine.{name}" for name in outputs]
+    run = fmpy.simulate_fmu(str(path), start_values=given, stop_time=0.02, output_interval=1e-3, output=shown)
+    return np.array([run[name] for name in shown])
+
+
+@pytest.mark.closed_form
+def test_unbalances_of_a_machine_are_parameters_of_its_fmu(tmp_path):
+    """Amounts and angles in two planes, set in one FMU, move it as the rotor that has them."""
+    there = (Unbalance(node=2, unbalance=5e-4, unbalance_angle=-0.7), Unbalance(node=4, unbalance=1e-4))
+    bare = (Unbalance(node=2, unbalance=3e-4, unbalance_angle=0.3), Unbalance(node=4, unbalance=0.0))
+    model = export_machine_fmu(rotor(unbalances=there), FILMS, tmp_path / "there.fmu", frequency=500.0)
+    export_machine_fmu(rotor(unbalances=bare), FILMS, tmp_path / "machine.fmu", frequency=500.0)
+    outputs = ["small_x", "left_y", "left_force_y"]
+    values = {"plane_2_unbalance": 5e-4, "plane_2_unbalance_angle": -0.7, "plane_4_unbalance": 1e-4}
+    wanted = run_machine(tmp_path / "there.fmu", outputs, {})
+    assert_allclose(run_machine(tmp_path / "machine.fmu", outputs, values), wanted, rtol=1e-9)
+    other = run_machine(tmp_path / "machine.fmu", outputs, {})
+    assert np.abs(other[0] - wanted[0]).max() > 1e-7
+    still = run_machine(tmp_path / "machine.fmu", outputs, {"plane_2_unbalance": 0.0})
+    assert_allclose(still, np.broadcast_to(still[:, :1], still.shape), rtol=1e-6)
+    assert abs(model.native().tables["unbalance"]).max() < 1e-12

@@ -98,7 +98,7 @@ def test_without_a_viscosity_the_films_are_on_the_oil_in_balance(table):
 @pytest.mark.parametrize(
     ("table", "message"),
     [
-        (LOBES + OIL, "lobed_journal: preset or lobes is required, one of both, got neither"),
+        (LOBES + OIL, "lobed_journal: preset or lobes is required, and not both, got neither"),
         (ELLIPTICAL + "lobes = [{ start = 0, extent = 1 }]\n", "got both"),
         (
             LOBES + OIL + "preload = 0.5\nlobes = [{ start = 0, extent = 1 }]\n",
@@ -113,13 +113,13 @@ def test_without_a_viscosity_the_films_are_on_the_oil_in_balance(table):
         (DAM + OIL + 'depth = "0.1 mm"\nend = "145 deg"\n', "pressure_dam: share of the dam is required"),
         (STEP + "pads = [{ start = 0, extent = 1 }]\n", "pressure_dam.depth must not be given beside pads"),
         (STEP + "cells = [30, 8]\n", "pressure_dam.cells must be two multiples of 4"),
-        (TILTING + OIL, "pad_count or pivots is required, one of both, got neither"),
+        (TILTING + OIL, "pad_count or pivots is required, and not both, got neither"),
         (TILTING + OIL + "pad_count = 5\n", "tilting_pad.loading must be given with pad_count"),
         (
             FIVE.replace("on_pad", "on pad"),
             "tilting_pad.loading must be one of on_pad, between_pads, .*'on_pad'",
         ),
-        (FIVE.replace("60 deg", "80 deg"), "tilting_pad.pivots must be angles at least the extent"),
+        (FIVE.replace("60 deg", "80 deg"), "pivots must be angles that differ by at least the extent"),
         (TILTING + OIL + "pivots = []\n", "tilting_pad.pivots must be a list of 1 to 64 angles"),
         (FIVE + STEP.partition("\n")[2], "pressure_dam and tilting_pad must not stand in one scene"),
     ],

@@ -170,7 +170,10 @@ def test_shaft_without_shear(tmp_path):
         ([element(0, 0), element(1, 2)], "must have a ShaftElement at every node, got none at node 1"),
         ([disk(0, 0, 0.3)], "must have a ShaftElement, got none"),
         ([element(0, 0), LINKED], r"n_link must be the node of a point mass \[\], got 7"),
-        ([element(0, 0), bearing(0, 0, "kxx = 1.0\ncxx = 0\nmyy = 3.0\n")], "mxx, mxy, myx, myy must be 0"),
+        (
+            [element(0, 0), bearing(0, 0, "kxx = [1.0, 2.0]\ncxx = 0\nmyy = 3.0\n")],
+            "mxx, mxy, myx, myy must be 0 beside coefficients over speed",
+        ),
         ([element(0, 0), bearing(0, 0, "kxx = [1.0, 2.0]\ncxx = 0\n")], "frequency must go with"),
         (
             [element(0, 0), '["GearElement_Gear"]\nn = 0\n'],

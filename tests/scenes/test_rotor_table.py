@@ -213,7 +213,7 @@ def test_what_a_shaft_cannot_be_asked():
         ),
         (
             [SHAFT, SPEEDS, SPRINGS.replace('stiffness = "1 MN/m"\n', "")],
-            "journal, or else stiffness or seal, is required",
+            "journal, or else stiffness, seal or thrust, is required",
         ),
         (
             [SHAFT, 'beam = "clasical"\n', SPEEDS, SPRINGS],

@@ -1,6 +1,7 @@
 """Scenes and questions of thrust bearings: what a table builds and refuses, answers, errors and remarks."""
 
 import math
+import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +12,7 @@ from rotorfilm.bearings import ThrustBearing, TiltingThrustBearing, double_actin
 from rotorfilm.questions.thrust import GRIDS, QUANTITIES, ThrustQuestion
 from rotorfilm.questions.walk import all_models
 from rotorfilm.scenes import parse_scene
+from rotorfilm.scenes.solve_shaft import amplitude_unit
 
 SIZE = 'inner_diameter = "60 mm"\nouter_diameter = "120 mm"\npads = 8\npad_arc = "38 deg"\n'
 HEAD = f"schema = 1\n[thrust]\n{SIZE}"
@@ -105,6 +107,19 @@ def test_the_load_at_a_least_film_is_that_of_the_film_under_that_load():
     assert back.equilibrium.minimum_film == pytest.approx(30e-6, rel=1e-8)
 
 
+@pytest.mark.parametrize("profile", [FIXED, 'crown = "10 um"\n', 'step_depth = "30 um"\n'])
+def test_the_load_of_fixed_pads_is_that_at_the_film_over_their_lands(profile):
+    load = scene_of(THIN, profile, 'smallest_film = "20 um"\n', RUN, asked="thrust_load", tolerance=0.2)
+    bearing = replace(scene_of(THIN, profile, RUN).thrust, cells=GRIDS[0]).build()
+    with warnings.catch_warnings(action="ignore"):
+        found = load.ask().rungs[0].value
+    assert found == pytest.approx(bearing.force([20e-6, 0.0, 0.0], np.zeros(3), SPEED)[0], rel=1e-8)
+    whole = THIN, 'step_depth = "30 um"\nstep_share = 1\nsmallest_film = "10 um"\n', RUN
+    deep = scene_of(*whole, asked="thrust_load")
+    with pytest.raises(rf.InputError, match="smallest_film must be one that the pads can have"):
+        deep.ask()
+
+
 def test_every_quantity_has_an_answer_within_its_estimate():
     """Against the finest grid; a tolerance of 20 % is met by all of one viscosity."""
     for quantity, row in QUANTITIES.items():
@@ -159,3 +174,49 @@ def test_what_is_left_out_is_said():
     assert any(one.startswith("turbulence: thrust films") for one in found.remarks)
     thin = scene_of("viscosity = 1e-3\n", FIXED, 'axial_load = "20 kN"\n', RUN).solve()
     assert any(one.startswith("misalignment: a tilt") for one in thin.remarks)
+
+
+# A thrust bearing in a shaft scene.
+
+
+SHAFT = """schema = 1
+[shaft]
+material = { young_modulus = "211 GPa", shear_modulus = "81.2 GPa", density = "7810 kg/m3" }
+elements = [{ length = "0.6 m", outer_diameter = "60 mm", pieces = 3 }]
+bearings = [
+    { name = "left", node = 0, stiffness = "1e8 N/m", damping = "1e5 N s/m" },
+    { name = "right", node = 3, stiffness = "1e8 N/m", damping = "1e5 N s/m" },
+    { name = "thrust", node = 1, thrust = { THRUST } },
+]
+disks = [{ node = 2, mass = "30 kg", polar_inertia = "0.4 kg m2", diametral_inertia = "0.25 kg m2" }]
+unbalances = [{ node = 2, unbalance = "300 g mm" }]
+speeds = { first = "3000 rpm", last = "6000 rpm", count = 3 }
+"""
+KEYS = SIZE.replace("\n", ", ") + "pivot_arc = 0.6, cells = [16, 8], "
+LOADED = SHAFT.replace("THRUST", f'{KEYS}viscosity = "20 mPa s", axial_load = "10 kN"')
+
+
+def test_a_thrust_bearing_belongs_to_a_shaft_with_its_load():
+    scene = parse_scene(LOADED, "case.toml")
+    rotor, bearings = scene.shaft.build(500.0), scene.shaft.build_bearings()
+    assert rotor.axial
+    assert [station.feels_tilt for station in rotor.stations] == [False, False, True]
+    at = rf.analysis.rotor_equilibrium(rotor, bearings, 500.0)
+    pads = bearings["thrust"].reactions[0]
+    place = at.coefficients["thrust"].position
+    x = pads.rest_state(place, 500.0)
+    assert pads.output(0.0, x, [*place, 0.0, 0.0, 0.0, 500.0])[0] == pytest.approx(10e3, rel=1e-6)
+    named = {"thrust_z": "m", "thrust_tilt_x": "rad", "thrust_housing_force_z": "N", "thrust_vz": "m/s"}
+    named |= {"thrust_housing_moment_x": "N m", "thrust_tilt_rate_y": "rad/s"}
+    assert {name: amplitude_unit(name) for name in named} == named
+
+
+def test_shafts_say_what_they_do_not_take_with_a_thrust_bearing():
+    bare = SHAFT.replace("THRUST", f'{KEYS}viscosity = "20 mPa s"')
+    with pytest.raises(rf.SceneError, match=r"thrust\.axial_load is required for an equilibrium"):
+        parse_scene(bare, "case.toml")
+    with pytest.raises(rf.SceneError, match="viscosity must be given of a thrust bearing of a shaft"):
+        parse_scene(SHAFT.replace("THRUST", f'{KEYS}axial_load = "10 kN"'), "case.toml")
+    asked = LOADED + RUN + '[question]\nquantity = "unbalance_amplitude"\ntolerance = 0.1\n'
+    with pytest.raises(rf.InputError, match=r"shaft\.bearings must have no thrust bearing for unbalance_"):
+        parse_scene(asked, "case.toml").ask()

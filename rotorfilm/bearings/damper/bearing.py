@@ -208,10 +208,12 @@ class SqueezeFilmDamper(InertialModel):
     ValidityWarning
         If the short film is used beyond length / diameter 0.25; the warning states its error.
 
-    Notes ----- Equations of Cusano & Funk (1977) without the wedge term, since the race does not spin. Full
-    films have F = -(a w + b (e.w) e + k e), w = velocity/clearance, in closed form, also at the center. Fluid
-    inertia is of first order in the squeeze Reynolds number, frequency clearance^2 density/viscosity: a full
-    film is valid up to 10, a ruptured film up to 5; see `require_range`.
+    Notes
+    -----
+    Equations of Cusano & Funk (1977) without the wedge term, since the race does not spin. Full films have F
+    = -(a w + b (e.w) e + k e), w = velocity/clearance, in closed form, also at the center. Fluid inertia is
+    of first order in the squeeze Reynolds number, frequency clearance^2 density/viscosity: a full film is
+    valid up to 10, a ruptured film up to 5; see `require_range`.
     """
 
     radius: float
@@ -236,8 +238,9 @@ class SqueezeFilmDamper(InertialModel):
         require_kind("seals", self.seals, EndSeal | None, "an EndSeal or None")
         require_non_negative("density", self.density)
         for name in ("seals", "density"):
-            if getattr(self, name) and (self.cage is not None or self.feed is not None):
-                raise InputError(f"{name} must be left out beside a porous cage or a feed, got {self!r}")
+            given = getattr(self, name)
+            if given and (self.cage is not None or self.feed is not None):
+                raise InputError(f"{name} must be left out with a porous cage or a feed, got {given!r}")
         if self.density:
             _ = self.film_inertia
         _ = self.bound_film

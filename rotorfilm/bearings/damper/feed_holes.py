@@ -44,7 +44,7 @@ class SqueezeMatrices(Readable):
     damping : ndarray, shape (2, 2) [N s/m]
         Rows: force x, y on the rotor, reversed; columns: velocity along x, y.
     added_mass : ndarray, shape (2, 2) [kg]
-        The same by acceleration.
+        Added mass in the same arrangement, with columns for the acceleration.
     frequency : float [rad/s]
         Frequency of the motion.
     """

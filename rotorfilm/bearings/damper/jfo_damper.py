@@ -557,8 +557,10 @@ def damper_turn(
     ValidityWarning
         If ends in air draw in air.
 
-    Notes ----- When the last cell of a cavity fills, its pressure jumps. On 64 lines the force then scatters
-    by some per cent of its largest value; mean values and work are not affected.
+    Notes
+    -----
+    When the last cell of a cavity fills, its pressure jumps. On 64 lines the force then scatters by some per
+    cent of its largest value; mean values and work are not affected.
     """
     require_kind("damper", damper, JFODamper, "a JFODamper")
     require_positive("speed", require_number("speed", speed))

@@ -173,12 +173,11 @@ class Turbulence:
     Parameters
     ----------
     closure : str
-        "ng_pan", "constantinescu", "hirs", or the slower "reichardt", the quadrature that the first two are
-        fits of.
+        "ng_pan", "constantinescu", "hirs", or "reichardt", the quadrature that the first two are fits of.
     band : bool or (float, float) [1]
         Local Reynolds numbers between which the film passes from laminar to turbulent; True for the `onset`
         of the bearing and twice that, False for closures at any Reynolds number. No measurement stands
-        behind the band: what it changes is a part of the error.
+        behind the band: compare the answers with and without it.
     density : float or None [kg/m3]
         Density of the oil; None for that of the bearing's oil at its temperature, and 870 without an oil.
 
@@ -261,7 +260,7 @@ def turbulent_transfer(bearing: Any, speed: float, thickness: Array, viscosity: 
     nodes, table = _transfer_table(prandtl)
     laminar = np.array([6.0, 1.0]).reshape(2, *(1,) * local.ndim)
     more = np.exp([np.interp(np.log1p(local / SPREAD), nodes, row) for row in table]) - laminar
-    share = blend(local, effect.edges(bearing.radius, bearing.clearance))
+    share = blend(local, effect.edges(bearing.radius, bearing.onset_clearance))
     return np.asarray(laminar + share * viscosity**PRANDTL_POWER * more)
 
 

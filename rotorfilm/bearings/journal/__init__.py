@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         Walls,
     )
     from .film_state import FilmState, film_state as film_state, middle_pressure, tension
+    from .full_stress import full_stress_forces
     from .groove_map import GrooveMapTable as GrooveMapTable
     from .grooved_film import GroovedMapFilm as GroovedMapFilm
     from .heated_film import (

@@ -274,7 +274,7 @@ class JournalBearing(FilmReaction, WarmBearing):
         return self.in_balance.heat_slopes(position, velocity, speed) * [[self.film_viscosity], [1.0], [1.0]]
 
     def film_at_unit_viscosity(self) -> tuple[BoundKernel, LossKernel] | None:
-        """Return the compiled film at 1 Pa s and its losses; None if the film law has not both, or is fed."""
+        """Return the compiled film at 1 Pa s and its losses; None if one is missing or oil is fed."""
         law = options(self.fitted_film, FilmOptions)
         if is_sped(law) or getattr(law, "mobility", None) is not None:  # the gaps of the library are laminar
             return None
@@ -362,7 +362,7 @@ def turbulent_map(mobility: Mobility) -> FilmLaw:
     """Return the map of a plain turbulent bearing."""
     from .mobile_map import MobileMapFilm
 
-    return MobileMapFilm(mobility=mobility)
+    return MobileMapFilm(mobility=mobility, nodes=(24, 48, 32))
 
 
 def fitted_film(film: FilmLaw, geometry: FilmGeometry) -> FilmLaw:

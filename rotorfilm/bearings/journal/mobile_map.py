@@ -40,8 +40,10 @@ from ..films.map_table import ERRORS, BoundedTable, cached_table, require_shapes
 from ..films.mobility import Mobility, checksum_of, per_rate, require_mobility, require_same_mobility
 from .reynolds_film import ExtrapolatedFilm, ReynoldsFilm
 
-SCALE = 30.0
-"""Reynolds number below which the nodes are uniform, and above which their logarithms are."""
+SCALE, EDGE = 30.0, 5.236
+"""Reynolds number below which the nodes are uniform, and above which their logarithms are. Where a band of
+transition begins at a larger one, it is that over the second number: then both ends of the band can be nodes,
+as ln(1 + Re/scale) of them are as 3 to 4."""
 
 BANDS = (0.5, 0.8, 0.9)
 """Eccentricity ratios between which the largest error is sought; the last band ends with the map."""
@@ -66,7 +68,9 @@ class MobileMapTable(BoundedTable):
     reach : float [1]
         X of the last node; beyond it J goes on as a power of X.
     largest_reynolds_number : float [1]
-        Largest reynolds number of the last node; beyond it the force is that of this node.
+        Largest Reynolds number of the last node; beyond it the force is that of this node.
+    scale : float [1]
+        Scale of y, in Reynolds numbers.
     log_center : ndarray, shape (cells_y + 5,)
         Spline coefficients of L0 over y.
     coefficients : ndarray, shape (cells_x + 5, cells_y + 5, cells_cos + 5)
@@ -85,6 +89,7 @@ class MobileMapTable(BoundedTable):
     mobility: float
     reach: float
     largest_reynolds_number: float
+    scale: float
     log_center: Array = field(repr=False)
     coefficients: Array = field(repr=False)
     bounds: Array = field(default_factory=lambda: np.empty((0, ERRORS)), repr=False)
@@ -93,16 +98,17 @@ class MobileMapTable(BoundedTable):
         require_shapes(self, coefficients=(None, None, None))
         require_shapes(self, log_center=(np.shape(self.coefficients)[1],))
         self._require_bounds()
-        numbers = self.slenderness, self.reach, self.largest_reynolds_number
+        numbers = self.slenderness, self.reach, self.largest_reynolds_number, self.scale
         if not all(0.0 < number < math.inf for number in numbers):
             raise InputError(
-                f"slenderness, reach and largest_reynolds_number must be positive and finite, got {numbers!r}"
+                "slenderness, reach, largest_reynolds_number and scale must be positive and finite, "
+                f"got {numbers!r}"
             )
 
     def kernel(self, grown: float) -> MapKernel:
         """Return the compiled film, whose Reynolds number is so many times half the speed [s]."""
-        last = math.log1p(self.largest_reynolds_number / SCALE)
-        numbers = np.array([self.reach, SCALE, last, grown])
+        last = math.log1p(self.largest_reynolds_number / self.scale)
+        numbers = np.array([self.reach, self.scale, last, grown])
         tables = {"coefficients": self.coefficients, "center": self.log_center, "map": numbers}
         return MapKernel(MapKind.SPED, tables)
 
@@ -127,7 +133,8 @@ class MobileMapFilm(KernelFilm):
     nodes : (int, int, int)
         Cells of the map over eccentricity, direction of the source and Reynolds number; at least 6.
     largest_eccentricity_ratio, largest_reynolds_number : float [1]
-        Largest eccentricity ratio and largest reynolds number of the last nodes.
+        Largest eccentricity ratio and Reynolds number of the last nodes. With a band of transition the latter
+        follows from the number of cells.
     table : MobileMapTable, optional
         The map, where it is there already.
     reynolds_scale : float [m3/kg s]
@@ -164,7 +171,17 @@ class MobileMapFilm(KernelFilm):
                 f"largest_eccentricity_ratio must be in (0, 1), got {self.largest_eccentricity_ratio!r}"
             )
         if self.table is not None:
-            require_same_mobility(self.table.mobility, self.mobility)
+            require_same_mobility(self.table.mobility, self.mobility.at(1.0))
+
+    @property
+    def axis(self) -> tuple[float, float]:
+        """Scale and largest Reynolds number of y; a band of transition begins and ends at nodes."""
+        scale = self.mobility.scale
+        if scale <= SCALE:
+            return SCALE, self.largest_reynolds_number
+        cells, low = self.nodes[2], scale / EDGE
+        step = math.log1p(EDGE) / (3 * max(1, round(cells / 8)))
+        return low, low * math.expm1(step * cells)
 
     @property
     def slenderness_range(self) -> tuple[float, float]:
@@ -194,7 +211,9 @@ class MobileMapFilm(KernelFilm):
             return self.table
         resolution = self.cells, self.nodes, self.largest_eccentricity_ratio, self.largest_reynolds_number
         rounded = float(f"{slenderness:.9g}")
-        path = table_path("mobile", (source_digest(__name__), rounded, *resolution, repr(self.mobility)))
+        path = table_path(
+            "mobile", (source_digest(__name__), rounded, *resolution, repr(self.mobility.at(1.0)))
+        )
         telling = told(report, f"{TITLE}, length/diameter {rounded:.6g}", path.parent)
         return cached_table(MobileMapTable, path, lambda: build_mobile_table(self, rounded, telling))
 
@@ -217,8 +236,8 @@ def build_mobile_table(film: MobileMapFilm, slenderness: float, report: Report =
     """Return the map of a film for one length/diameter, made on all cores, with the bounds of its error."""
     cells_x, cells_cos, cells_y = film.nodes
     largest = film.largest_eccentricity_ratio
-    last = math.log1p(film.largest_reynolds_number / SCALE)
-    numbers = SCALE * np.expm1(np.linspace(0.0, last, cells_y + 1))
+    scale, most = film.axis
+    numbers = scale * np.expm1(np.linspace(0.0, math.log1p(most / scale), cells_y + 1))
     chi, cos = node_eccentricities(largest, cells_x), np.linspace(-1.0, 1.0, cells_cos + 1)
     # Where the journal leaves the wall the film is opposite, where lines are few.
     away = 2 * film.cells[0], film.cells[1]
@@ -235,9 +254,10 @@ def build_mobile_table(film: MobileMapFilm, slenderness: float, report: Report =
     over_y = quintic_coefficients(np.array([layer.coefficients[0] for layer in layers]))
     table = MobileMapTable(
         slenderness=slenderness,
-        mobility=checksum_of(film.mobility),
+        mobility=checksum_of(film.mobility.at(1.0)),
         reach=float(stretch(largest)),
-        largest_reynolds_number=film.largest_reynolds_number,
+        largest_reynolds_number=most,
+        scale=scale,
         log_center=quintic_coefficients(np.array([layer.log_center[0] for layer in layers])),
         coefficients=np.ascontiguousarray(over_y.swapaxes(0, 1)),
     )
@@ -273,8 +293,9 @@ def _states(film: MobileMapFilm) -> tuple[list[float], Array, Array, Array]:
     chi = low + (np.repeat(reaches, STATES) - low) * shares[0]
     turn = 2.0 * np.pi * shares[1]
     e = np.stack([chi, np.zeros_like(chi)])
-    last = math.log1p(film.largest_reynolds_number / SCALE)
-    return reaches, e, np.stack([np.cos(turn), np.sin(turn)]), SCALE * np.expm1(last * shares[2])
+    scale, most = film.axis
+    reynolds = scale * np.expm1(math.log1p(most / scale) * shares[2])
+    return reaches, e, np.stack([np.cos(turn), np.sin(turn)]), reynolds
 
 
 def _exact(

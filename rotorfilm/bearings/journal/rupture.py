@@ -329,7 +329,7 @@ class SlitArc:
         return self.extent is None
 
     def shortcoming(self, basis: Basis) -> str:
-        """Return a warning as `ReynoldsArc`, or as `FixedArc` between two slits."""
+        """Return the warning of a `ReynoldsArc`, or that of a `FixedArc` between two slits."""
         rule = ReynoldsArc() if self.extent is None else FixedArc(extent=self.extent)
         return rule.shortcoming(basis)
 

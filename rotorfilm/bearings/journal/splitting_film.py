@@ -69,8 +69,10 @@ class SplittingFilm:
         If the rupture rule does not suit this order: an arc between 3.6 rad and 2 pi without the constant
         function, or a `ReynoldsArc` with n < 4.
 
-    Notes ----- On a fixed arc, n = 1 gives a damping matrix of rank one, so that no whirl threshold exists;
-    from n = 2 on the damping matrix is exactly symmetric.
+    Notes
+    -----
+    On a fixed arc, n = 1 gives a damping matrix of rank one, so that no whirl threshold exists; from n = 2 on
+    the damping matrix is exactly symmetric.
     """
 
     order: tuple[int, int | None] = (2, None)

@@ -272,7 +272,12 @@ class WarmBearing(LaminarFilm):
         """Mobility of the oil at its temperature by the turbulence of the bearing; None of a laminar one."""
         if self.turbulence is None:
             return None
-        return self.turbulence.mobility(self.radius, self.clearance, self.film_density)
+        return self.turbulence.mobility(self.radius, self.onset_clearance, self.film_density)
+
+    @property
+    def onset_clearance(self) -> float:
+        """Clearance whose Taylor number decides where turbulence begins [m], of pads that of the bore."""
+        return float(getattr(self, "bore_clearance", self.clearance))
 
     @property
     def film_density(self) -> float:

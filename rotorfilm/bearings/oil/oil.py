@@ -704,7 +704,7 @@ class LaminarFilm(FilmUnits):
             within = float(np.clip(at, *oil.law.temperature_range))
             liquid = min(max(within, COLDEST_OIL), HOTTEST_OIL)
             viscosity, density = float(oil.law.viscosity(within)), float(oil.density(liquid))
-        R, c = self.radius, self.clearance
+        R, c = self.radius, getattr(self, "bore_clearance", self.clearance)
         found = film_reynolds(R, c, viscosity, density, speed)
         most = onset(R, c)
         if found.turbulence and not is_turbulent(self):

@@ -101,8 +101,9 @@ class PadBearing(WarmBearing):
     Raises
     ------
     InputError
-        If a dimension is not finite and positive, viscosity and oil are not one of both, an oil has neither
-        temperature nor cooling, there are not one of both clearances, or it is not below the radius.
+        If a dimension is not finite and positive, or the clearance is not below the radius. If not exactly
+        one of viscosity and oil, or of both clearances, is given. If an oil has neither temperature nor
+        cooling.
     """
 
     radius: float
@@ -130,7 +131,7 @@ class PadBearing(WarmBearing):
         given = {name: getattr(self, name) for name in ("pad_clearance", "assembled_clearance")}
         told = {name: value for name, value in given.items() if value is not None}
         if len(told) != 1:
-            raise InputError(f"pad_clearance or assembled_clearance must be given, one of both, got {given}")
+            raise InputError(f"pad_clearance or assembled_clearance must be given, and not both, got {given}")
         for name, value in told.items():
             require_positive(name, value)
         preloads = sorted(set(self.preloads))

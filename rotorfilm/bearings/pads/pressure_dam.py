@@ -168,7 +168,7 @@ class PressureDamBearing(PadBearing, KernelReaction):
     Angles are absolute, from +x towards +y. The film is two-dimensional, on a grid of its own for each pad,
     with ambient pressure, 0, at all edges of the pads and where it ruptures.
 
-    Dimensions, clearance and lubricant are given as to every `PadBearing`.
+    Dimensions, clearance and lubricant are the parameters of `PadBearing`.
 
     Parameters
     ----------
@@ -373,9 +373,11 @@ class PressureDamBearing(PadBearing, KernelReaction):
         InputError, FilmContactError
             As `force`.
 
-        Notes ----- As `losses_of_pads`; pressure on the steps adds c_p D p/2 to the torque, integrated along
-        their edges. For the flow, a film begins only where streamers bring enough oil; the force does not
-        include this effect.
+        Notes
+        -----
+        As `losses_of_pads`; pressure on the steps adds c_p D p/2 to the torque, integrated along their edges.
+        For the flow, a film begins only where streamers bring enough oil; the force does not include this
+        effect.
         """
         q, v, omega = broadcast_state(position, velocity, speed)
         self.require_film(q)

@@ -141,7 +141,7 @@ class TiltingPadBearing(Called, PadBearing):
     def _check_pivots(self) -> None:
         angles = require_finite("pivots", self.pivots)
         if angles.ndim != 1 or not angles.size or np.min(gaps(angles)) < self.extent * (1.0 - 1e-12):
-            rule = f"angles at least the extent {self.extent!r} apart"
+            rule = f"angles that differ by at least the extent of a pad, {self.extent:.6g} rad"
             raise InputError(f"pivots must be {rule}, got {brief(self.pivots)}")
         start = require_finite("start", self.start)
         if start.shape not in ((0,), (self.coordinates,)):

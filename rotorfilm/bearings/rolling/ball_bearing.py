@@ -205,8 +205,8 @@ class BallBearing(BallElement):
         room = self.pitch_diameter * math.sin(math.pi / self.balls)
         if self.ball_diameter > room:
             raise InputError(
-                f"balls must find room on the pitch circle, {room:.4g} m each, "
-                f"got {self.balls} of {self.ball_diameter!r} m"
+                f"balls must find room on the pitch circle, which leaves {room:.4g} m for each, "
+                f"got {self.balls} balls of {self.ball_diameter!r} m"
             )
         for name in ("inner_conformity", "outer_conformity"):
             if not 0.5 < require_number(name, getattr(self, name)) < 0.75:
@@ -231,7 +231,7 @@ class BallBearing(BallElement):
     def _require_one_of_both(self) -> None:
         given = {"internal_clearance": self.internal_clearance, "contact_angle": self.contact_angle}
         if sum(value is not None for value in given.values()) != 1:
-            raise InputError(f"internal_clearance or contact_angle must be given, one of both, got {given}")
+            raise InputError(f"internal_clearance or contact_angle must be given, and not both, got {given}")
         if self.contact_angle is not None and not 0.0 <= require_number(
             "contact_angle", self.contact_angle
         ) < math.radians(75.0):
@@ -422,12 +422,12 @@ class BearingPair(BallElement):
 
     @property
     def running(self) -> tuple[BallLaw, float]:
-        """Law of the balls and growth of the inner rings [m], those of the bearing."""
+        """Law of the balls and growth of the inner rings [m], as in the single bearing."""
         return self.bearing.running
 
     @property
     def cage_ratio(self) -> float:
-        """Speed of the cages over that of the shaft, that of the bearing."""
+        """Speed of the cages over that of the shaft, as in the single bearing."""
         return self.bearing.cage_ratio
 
     def turned(self, angle: float) -> BearingPair:
@@ -436,7 +436,7 @@ class BearingPair(BallElement):
 
     @property
     def waves(self) -> Array:
-        """Waves of the races of both rows, those of the bearing."""
+        """Waves of the races of both rows, as in the single bearing."""
         return self.bearing.waves
 
     @property

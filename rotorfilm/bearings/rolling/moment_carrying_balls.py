@@ -279,14 +279,14 @@ class VariableComplianceBalls(MomentCarryingBalls):
         return np.array([self.ratio * speed, speed])
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
-        """Return the exact derivatives; where z follows from an axial load, with that."""
+        """Return the exact derivatives, including the motion of z where it follows from an axial load."""
         D, C = self._by_input(self._turned(x, u))
         B = np.zeros((2, D.shape[1]))
         B[:, -1] = self.ratio, 1.0
         return Linearization(np.zeros((2, 2)), B, C, D)
 
     def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return the approach of each ball to the inner ring [m]: it changes sign where the load does."""
+        """Return the approach of each ball to the inner ring [m], which is positive under load."""
         return np.array(self._turned(x, u).each["gap"])
 
     def native(self) -> NativeSpec | None:

@@ -95,7 +95,7 @@ class TiltingThrustBearing(SectorPads):
 
     @property
     def origin(self) -> float:
-        """Place of the axis of a pad's frame: the pivot, as part of its arc."""
+        """Position of the pivot as a share of the arc: the axis of a pad's frame."""
         return self.pivot_arc
 
     @property

@@ -22,6 +22,7 @@ from ..description import (
     build_description,
     dependencies,
     fmi_variables,
+    in_arrays,
     labelled,
     references,
     require_unique,
@@ -62,6 +63,8 @@ class Export(NamedTuple):
         "host" or "all".
     prefix : str
         What stands before the dot of each variable; empty where names are flat.
+    arrays : bool
+        Whether vectors are arrays.
     """
 
     model: Model | Stepped
@@ -73,6 +76,7 @@ class Export(NamedTuple):
     version: str
     platforms: str
     prefix: str
+    arrays: bool = False
 
 
 def native_contents(export: Export, described: dict[str, Any]) -> dict[str, bytes]:
@@ -110,6 +114,8 @@ def native_contents(export: Export, described: dict[str, Any]) -> dict[str, byte
 def _interfaces(model: Model | Stepped, version: str) -> dict[str, dict[str, str]]:
     """Return what the C library can do with a model: one that steps by itself has Co-Simulation alone."""
     every = capabilities("native", version)
+    if isinstance(model, Model) and model.states:
+        every["CoSimulation"]["maxOutputDerivativeOrder"] = "1"
     if not isinstance(model, Stepped):
         return every
     own = {
@@ -136,7 +142,7 @@ def native_model_variables(export: Export) -> tuple[Variable, ...]:
     known = (time, *parameters, *fmi_variables(model, component, start))
     variables = (*known, *_slopes(known), *_switches(export))
     require_unique(variables)
-    return variables
+    return in_arrays(variables, component) if export.arrays else variables
 
 
 def _slopes(known: tuple[Variable, ...]) -> list[Variable]:
@@ -175,7 +181,7 @@ def _files(export: Export, variables: tuple[Variable, ...]) -> dict[str, bytes]:
         **licenses((PACKAGE,)),
         **foreign_licenses(),
         **_pictures(export),
-        **terminal_files(export.model, export.component, export.prefix, export.version == "3.0"),
+        **terminal_files(export.model, export.component, variables, export.prefix, export.version == "3.0"),
         "documentation/index.html": _page(export, variables),
         REFERENCE: _reference(export, variables),
     }
@@ -192,7 +198,13 @@ def _page(export: Export, variables: tuple[Variable, ...]) -> bytes:
 def _reference(export: Export, variables: tuple[Variable, ...]) -> bytes:
     chosen = [0, *references(variables, "input"), *references(variables, "output")]
     table = reference_table(export.model, export.inputs, export.stop_time)
-    return to_csv([variables[k].name for k in chosen], table)
+    return to_csv([_column(variables, k) for k in chosen], table)
+
+
+def _column(variables: tuple[Variable, ...], k: int) -> str:
+    """Return the name of a number in a table; elements of arrays count from 1."""
+    array = variables[k].array
+    return f"{array}[{[v.array for v in variables[:k]].count(array) + 1}]" if array else variables[k].name
 
 
 def _pictures(export: Export) -> dict[str, bytes]:

@@ -279,7 +279,7 @@ def python_contents(
     )
     component = description.identifier
     contents = _files(model, component, description.title, start, variables, prefix)
-    contents |= terminal_files(model, component, prefix, icon=False)
+    contents |= terminal_files(model, component, variables, prefix, icon=False)
     guid = guid_of(contents, to_xml(description, "2.0", ""))
     return {**contents, "modelDescription.xml": to_xml(description, "2.0", guid)}
 

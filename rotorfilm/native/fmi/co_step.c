@@ -88,6 +88,7 @@ rf_answer rf_step(rf_instance *c, double from, double step)
         return give_up(c, from, &why);
     }
     c->last_good_time = t;
+    c->now.step = t - from;
     if (!c->event_mode || t != c->now.kink) {
         rf_pass_event(c);
         c->known |= 1u << RF_OUTPUT;

@@ -96,14 +96,14 @@ fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference vr[], s
                        fmi2Real values[])
 {
     CALL(fmi2GetReal, AFTER_START);
-    return (fmi2Status)rf_get(c, vr, count, values);
+    return (fmi2Status)rf_get(c, vr, count, values, count);
 }
 
 fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference vr[], size_t count,
                        const fmi2Real values[])
 {
     CALL(fmi2SetReal, RF_INSTANTIATED | RF_INITIALIZING | RUNNING);
-    return (fmi2Status)rf_set(c, vr, count, values);
+    return (fmi2Status)rf_set(c, vr, count, values, count);
 }
 
 /* All variables are real: another type has none, and asking for none of them is fine. */
@@ -182,8 +182,8 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component component, const fmi2Value
                                         size_t known_count, const fmi2Real seed[], fmi2Real sensitivity[])
 {
     CALL(fmi2GetDirectionalDerivative, AFTER_START);
-    return (fmi2Status)rf_differentiate(c, unknowns, unknown_count, knowns, known_count, seed, sensitivity,
-                                        0);
+    const rf_pair pair = {unknowns, unknown_count, knowns, known_count};
+    return (fmi2Status)rf_differentiate(c, &pair, seed, known_count, sensitivity, unknown_count, 0);
 }
 
 /* Model Exchange */

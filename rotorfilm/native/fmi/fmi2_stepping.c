@@ -13,9 +13,7 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component component, const fmi2Value
                                         const fmi2Integer order[], fmi2Real values[])
 {
     CALL(fmi2GetRealOutputDerivatives, RF_STEPPING | RF_STEP_FAILED | RF_TERMINATED);
-    (void)vr, (void)order, (void)values;
-    return count == 0 ? fmi2OK
-                      : (fmi2Status)rf_log(c, RF_ERROR, RF_LOG_ERROR, "outputs have no time derivatives");
+    return (fmi2Status)rf_get_output_slopes(c, vr, count, order, values, count);
 }
 
 fmi2Status fmi2DoStep(fmi2Component component, fmi2Real from, fmi2Real step, fmi2Boolean final)

@@ -1,4 +1,4 @@
-/* FMI 3.0: names and rules of call order over instance.h. All variables are scalars of type Float64. */
+/* FMI 3.0: names and rules of call order over instance.h. All variables are of type Float64. */
 #include "fmi3_call.h"
 
 static void send(const rf_host *host, const char *name, rf_answer answer, const char *category,
@@ -116,29 +116,18 @@ fmi3Status fmi3Reset(fmi3Instance instance)
     return (fmi3Status)rf_reset(c);
 }
 
-static fmi3Status require_scalars(rf_instance *c, size_t references, size_t values)
-{
-    if (references == values)
-        return fmi3OK;
-    return (fmi3Status)rf_log(c, RF_ERROR, RF_LOG_ERROR,
-                              "all variables are scalars, got %zu values for %zu of them", values,
-                              references);
-}
-
 fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], size_t count,
                           fmi3Float64 values[], size_t value_count)
 {
     CALL(fmi3GetFloat64, AFTER_START | RF_WITHIN_STEP);
-    const fmi3Status fits = require_scalars(c, count, value_count);
-    return fits == fmi3OK ? (fmi3Status)rf_get(c, vr, count, values) : fits;
+    return (fmi3Status)rf_get(c, vr, count, values, value_count);
 }
 
 fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], size_t count,
                           const fmi3Float64 values[], size_t value_count)
 {
     CALL(fmi3SetFloat64, RF_INSTANTIATED | RF_INITIALIZING | RUNNING);
-    const fmi3Status fits = require_scalars(c, count, value_count);
-    return fits == fmi3OK ? (fmi3Status)rf_set(c, vr, count, values) : fits;
+    return (fmi3Status)rf_set(c, vr, count, values, value_count);
 }
 
 fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *state)
@@ -186,27 +175,14 @@ fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte bytes[]
     return (fmi3Status)rf_deserialize(c, bytes, size, state);
 }
 
-static fmi3Status differentiate(rf_instance *c, const fmi3ValueReference unknowns[], size_t unknown_count,
-                                const fmi3ValueReference knowns[], size_t known_count,
-                                const fmi3Float64 seed[], size_t seeds, fmi3Float64 sensitivity[],
-                                size_t sensitivities, int transposed)
-{
-    const size_t from = transposed ? unknown_count : known_count,
-                 to = transposed ? known_count : unknown_count;
-    if (require_scalars(c, from, seeds) != fmi3OK || require_scalars(c, to, sensitivities) != fmi3OK)
-        return fmi3Error;
-    return (fmi3Status)rf_differentiate(c, unknowns, unknown_count, knowns, known_count, seed, sensitivity,
-                                        transposed);
-}
-
 fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
                                         size_t unknown_count, const fmi3ValueReference knowns[],
                                         size_t known_count, const fmi3Float64 seed[], size_t seeds,
                                         fmi3Float64 sensitivity[], size_t sensitivities)
 {
     CALL(fmi3GetDirectionalDerivative, AFTER_START);
-    return differentiate(c, unknowns, unknown_count, knowns, known_count, seed, seeds, sensitivity,
-                         sensitivities, 0);
+    const rf_pair pair = {unknowns, unknown_count, knowns, known_count};
+    return (fmi3Status)rf_differentiate(c, &pair, seed, seeds, sensitivity, sensitivities, 0);
 }
 
 fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
@@ -215,8 +191,8 @@ fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueRefere
                                     fmi3Float64 sensitivity[], size_t sensitivities)
 {
     CALL(fmi3GetAdjointDerivative, AFTER_START);
-    return differentiate(c, unknowns, unknown_count, knowns, known_count, seed, seeds, sensitivity,
-                         sensitivities, 1);
+    const rf_pair pair = {unknowns, unknown_count, knowns, known_count};
+    return (fmi3Status)rf_differentiate(c, &pair, seed, seeds, sensitivity, sensitivities, 1);
 }
 
 /* There are no structural parameters: both modes only pass. */
@@ -359,4 +335,11 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 from, fmi3Float64 step,
     *early = done && c->now.time < from + step;
     *last_time = c->last_good_time;
     return (fmi3Status)answer;
+}
+
+fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance, const fmi3ValueReference vr[], size_t count,
+                                    const fmi3Int32 orders[], fmi3Float64 values[], size_t value_count)
+{
+    CALL(fmi3GetOutputDerivatives, RF_STEPPING | RF_STEP_FAILED | RF_TERMINATED);
+    return (fmi3Status)rf_get_output_slopes(c, vr, count, orders, values, value_count);
 }

@@ -144,13 +144,6 @@ fmi3Status fmi3SetShiftFraction(fmi3Instance instance, const fmi3ValueReference 
     return refuse(instance, "fmi3SetShiftFraction", count, NO_CLOCK);
 }
 
-fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance, const fmi3ValueReference vr[], size_t count,
-                                    const fmi3Int32 orders[], fmi3Float64 values[], size_t value_count)
-{
-    (void)vr, (void)orders, (void)values, (void)value_count;
-    return refuse(instance, "fmi3GetOutputDerivatives", count, "outputs have no time derivatives");
-}
-
 fmi3Status fmi3ActivateModelPartition(fmi3Instance instance, fmi3ValueReference clock, fmi3Float64 time)
 {
     (void)clock, (void)time;

@@ -11,7 +11,7 @@
 static void start(rf_instance *c)
 {
     const rf_resource *r = c->resource;
-    const rf_condition initial = {0.0, HUGE_VAL, 0.0, RF_INSTANTIATED, 0};
+    const rf_condition initial = {0.0, HUGE_VAL, 0.0, RF_INSTANTIATED, 0, 0.0};
     for (size_t i = 0; i < r->variable_count; ++i) {
         const rf_variable *v = r->variables + i;
         if (v->role != RF_TIME)
@@ -35,7 +35,7 @@ static void start(rf_instance *c)
 static int allocate(rf_instance *c)
 {
     const size_t p = c->sizes.parameters, m = c->sizes.inputs, q = c->sizes.outputs, n = c->sizes.states;
-    const size_t z = c->sizes.events, kept = rf_kept(c), derived = q + n + z + n + n * n + n * m + q * n + q * m;
+    const size_t z = c->sizes.events, kept = rf_kept(c), derived = 3 * q + n + z + n + n * n + n * m + q * n + q * m;
     const size_t total = p + m + kept + derived + rf_integration_work(n) + kept;
     double *at = calloc(total + 1, sizeof *at);
     if (!at)
@@ -48,6 +48,7 @@ static int allocate(rf_instance *c)
     c->values[RF_DERIVATIVE] = at, at += n;
     c->values[RF_SWITCH] = at, at += z;
     c->nominal = at, at += n;
+    c->drift = at, at += 2 * q;
     c->jacobian.A = at, at += n * n;
     c->jacobian.B = at, at += n * m;
     c->jacobian.C = at, at += q * n;

@@ -52,6 +52,7 @@ typedef struct rf_condition {
     double stride;  /* step size of a stiff integration; it belongs to the state, as results depend on it */
     uint32_t phase; /* rf_phase */
     uint32_t warned;
+    double step;    /* length of the last step of Co-Simulation, 0 before */
 } rf_condition;
 
 struct rf_instance {
@@ -75,7 +76,7 @@ struct rf_instance {
     size_t value_count;
     double *values[RF_ROLES]; /* one block: parameters, inputs, states first, these are saved */
     rf_jacobian jacobian;
-    double *work, *nominal;
+    double *work, *nominal, *drift; /* drift: twice the outputs */
 };
 
 /* Numbers of the states, or of a memory. */
@@ -104,8 +105,12 @@ rf_answer rf_set_experiment(rf_instance *c, int tolerance_defined, double tolera
 rf_answer rf_exit_initialization(rf_instance *c);
 rf_answer rf_reset(rf_instance *c);
 
-rf_answer rf_get(rf_instance *c, const unsigned *references, size_t count, double *values);
-rf_answer rf_set(rf_instance *c, const unsigned *references, size_t count, const double *values);
+/* `numbers` are those of all elements. */
+rf_answer rf_get(rf_instance *c, const unsigned *references, size_t count, double *values, size_t numbers);
+rf_answer rf_set(rf_instance *c, const unsigned *references, size_t count, const double *values, size_t numbers);
+/* Derivatives of outputs in time under held inputs, of order 1, at the end of a step of Co-Simulation. */
+rf_answer rf_get_output_slopes(rf_instance *c, const unsigned *references, size_t count, const int *orders,
+                               double *values, size_t numbers);
 rf_answer rf_set_time(rf_instance *c, double time);
 rf_answer rf_set_states(rf_instance *c, const double *x, size_t count);
 rf_answer rf_get_states(rf_instance *c, double *x, size_t count);
@@ -113,11 +118,17 @@ rf_answer rf_get_derivatives(rf_instance *c, double *dx, size_t count);
 rf_answer rf_get_switches(rf_instance *c, double *z, size_t count);
 rf_answer rf_get_nominals(rf_instance *c, double *nominal, size_t count);
 
+typedef struct rf_pair {
+    const unsigned *unknowns;
+    size_t unknown_count;
+    const unsigned *knowns;
+    size_t known_count;
+} rf_pair;
+
 /* Derivatives of the unknowns along a seed of the knowns; transposed, of the seeded sum of the unknowns by
    the knowns. */
-rf_answer rf_differentiate(rf_instance *c, const unsigned *unknowns, size_t unknown_count,
-                           const unsigned *knowns, size_t known_count, const double *seed,
-                           double *sensitivity, int transposed);
+rf_answer rf_differentiate(rf_instance *c, const rf_pair *pair, const double *seed, size_t seeds,
+                           double *sensitivity, size_t sensitivities, int transposed);
 
 void rf_enter(rf_instance *c, rf_phase phase);
 /* Leave an event behind: the next one becomes known. */

@@ -55,6 +55,7 @@ static int read_variable(const unsigned char *at, rf_resource *to, rf_variable *
     const uint32_t role = read_u32(at);
     v->index = read_u32(at + 4);
     v->flags = read_u32(at + 8);
+    v->more = read_u32(at + 12);
     v->start = read_double(at + 16);
     v->minimum = read_double(at + 24);
     v->maximum = read_double(at + 32);
@@ -154,6 +155,10 @@ static int read_model(const unsigned char *bytes, size_t size, rf_resource *to, 
     for (size_t i = 0; i < variables; ++i)
         if (read_variable(model + MODEL + i * VARIABLE, to, to->variables + i, why) != RF_OK)
             return RF_INVALID;
+    for (size_t i = 0; i < variables; ++i)
+        if (to->variables[i].more >= variables - i
+            || to->variables[i + to->variables[i].more].role != to->variables[i].role)
+            return rf_say(why, RF_INVALID, "array %zu of %s is longer than its role", i, RF_RESOURCE_FILE);
     to->tables.count = tables;
     return read_tables(bytes, size, HEADER + MODEL + variables * VARIABLE, to, why);
 }

@@ -19,11 +19,12 @@ typedef enum rf_role {
 
 enum { RF_TUNABLE = 1 };
 
-/* A variable; its value reference is its place in the list. */
+/* A number; its value reference is its place in the list. An array has that of its first number. */
 typedef struct rf_variable {
     rf_role role;
     uint32_t index; /* among those of its role */
     uint32_t flags;
+    uint32_t more; /* numbers of the array behind this one, 0 for a scalar */
     double start, minimum, maximum, nominal;
     char name[48];
 } rf_variable;

@@ -25,16 +25,60 @@ static rf_answer refresh(rf_instance *c, rf_role role)
                   &why);
 }
 
-rf_answer rf_get(rf_instance *c, const unsigned *references, size_t count, double *values)
+/* Numbers of variables, the arrays element by element; `references` must have been checked by `require`. */
+typedef struct rf_walk {
+    const rf_variable *variables;
+    const unsigned *references;
+    size_t count;
+    uint32_t element;
+} rf_walk;
+
+static rf_walk walk(const rf_instance *c, const unsigned *references, size_t count)
 {
-    rf_answer worst = RF_FINE;
+    const rf_walk begin = {c->resource->variables, references, count, 0};
+    return begin;
+}
+
+/* The next number, NULL at the end. */
+static const rf_variable *next(rf_walk *at)
+{
+    if (!at->count)
+        return NULL;
+    const rf_variable *first = at->variables + *at->references, *found = first + at->element;
+    if (at->element++ == first->more) {
+        at->element = 0;
+        ++at->references;
+        --at->count;
+    }
+    return found;
+}
+
+/* Whether there are these variables, and so many numbers in them. */
+static rf_answer require(rf_instance *c, const unsigned *references, size_t count, size_t numbers,
+                         const char *function)
+{
+    size_t total = 0;
     for (size_t i = 0; i < count; ++i) {
-        const rf_variable *v = find(c, references[i], "get");
-        const rf_answer answer = v ? refresh(c, v->role) : RF_ERROR;
+        const rf_variable *v = find(c, references[i], function);
+        if (!v)
+            return RF_ERROR;
+        total += 1 + v->more;
+    }
+    if (total == numbers)
+        return RF_FINE;
+    return rf_log(c, RF_ERROR, RF_LOG_ERROR, "%s: %zu variables have %zu values, got %zu", function, count, total,
+                  numbers);
+}
+
+rf_answer rf_get(rf_instance *c, const unsigned *references, size_t count, double *values, size_t numbers)
+{
+    rf_answer worst = require(c, references, count, numbers, "get");
+    rf_walk at = walk(c, references, count);
+    const rf_variable *v;
+    while (worst <= RF_WARNING && (v = next(&at)) != NULL) {
+        const rf_answer answer = refresh(c, v->role);
         worst = answer > worst ? answer : worst;
-        if (worst > RF_WARNING)
-            return worst;
-        values[i] = v->role == RF_TIME ? c->now.time : c->values[v->role][v->index];
+        *values++ = v->role == RF_TIME ? c->now.time : c->values[v->role][v->index];
     }
     return worst;
 }
@@ -57,16 +101,18 @@ static rf_answer may_set(rf_instance *c, const rf_variable *v, double value)
     return RF_FINE;
 }
 
-rf_answer rf_set(rf_instance *c, const unsigned *references, size_t count, const double *values)
+rf_answer rf_set(rf_instance *c, const unsigned *references, size_t count, const double *values, size_t numbers)
 {
-    for (size_t i = 0; i < count; ++i) {
-        const rf_variable *v = find(c, references[i], "set");
-        if (!v || may_set(c, v, values[i]) != RF_FINE)
+    if (require(c, references, count, numbers, "set") != RF_FINE)
+        return RF_ERROR;
+    rf_walk at = walk(c, references, count);
+    const rf_variable *v;
+    for (size_t i = 0; (v = next(&at)) != NULL; ++i)
+        if (may_set(c, v, values[i]) != RF_FINE)
             return RF_ERROR;
-    }
-    for (size_t i = 0; i < count; ++i) {
-        const rf_variable *v = c->resource->variables + references[i];
-        c->values[v->role][v->index] = values[i];
+    at = walk(c, references, count);
+    while ((v = next(&at)) != NULL) {
+        c->values[v->role][v->index] = *values++;
         c->parameters_changed |= v->role == RF_PARAMETER;
     }
     rf_forget(c);
@@ -154,25 +200,8 @@ static const double *entry(const rf_instance *c, const rf_variable *unknown, con
     return matrix + unknown->index * (by_input ? m : n) + known->index;
 }
 
-/* Whether all these variables can be derived by each other. */
-static rf_answer require_entries(rf_instance *c, const unsigned *unknowns, size_t unknown_count,
-                                 const unsigned *knowns, size_t known_count)
-{
-    for (size_t i = 0; i < unknown_count * known_count; ++i) {
-        const rf_variable *unknown = find(c, unknowns[i / known_count], "partial derivatives");
-        const rf_variable *known = find(c, knowns[i % known_count], "partial derivatives");
-        if (!unknown || !known)
-            return RF_ERROR;
-        if (!entry(c, unknown, known))
-            return rf_log(c, RF_ERROR, RF_LOG_ERROR, "no derivative of %s by %s is provided", unknown->name,
-                          known->name);
-    }
-    return RF_FINE;
-}
-
-rf_answer rf_differentiate(rf_instance *c, const unsigned *unknowns, size_t unknown_count,
-                           const unsigned *knowns, size_t known_count, const double *seed,
-                           double *sensitivity, int transposed)
+/* Put the Jacobian where `entry` finds it. */
+static rf_answer derive(rf_instance *c)
 {
     rf_message why;
     if (!c->type->jacobian)
@@ -181,20 +210,82 @@ rf_answer rf_differentiate(rf_instance *c, const unsigned *unknowns, size_t unkn
     const rf_point at = rf_present_point(c);
     if (status == RF_OK)
         status = c->type->jacobian(c->kernel, &at, &c->jacobian, &why);
-    const rf_answer answer = rf_judged(c, status, "partial derivatives", &why);
-    if (answer > RF_WARNING || require_entries(c, unknowns, unknown_count, knowns, known_count) != RF_FINE)
-        return answer > RF_WARNING ? answer : RF_ERROR;
-    const size_t rows = transposed ? known_count : unknown_count,
-                 columns = transposed ? unknown_count : known_count;
-    for (size_t i = 0; i < rows; ++i) {
-        double sum = 0.0;
-        for (size_t j = 0; j < columns; ++j) {
-            const size_t unknown = unknowns[transposed ? j : i], known = knowns[transposed ? i : j];
-            sum += seed[j] * *entry(c, c->resource->variables + unknown, c->resource->variables + known);
+    return rf_judged(c, status, "partial derivatives", &why);
+}
+
+rf_answer rf_differentiate(rf_instance *c, const rf_pair *pair, const double *seed, size_t seeds,
+                           double *sensitivity, size_t sensitivities, int transposed)
+{
+    const size_t rows = transposed ? seeds : sensitivities, columns = transposed ? sensitivities : seeds;
+    const rf_answer answer = derive(c);
+    if (answer > RF_WARNING)
+        return answer;
+    if (require(c, pair->unknowns, pair->unknown_count, rows, "partial derivatives") != RF_FINE
+        || require(c, pair->knowns, pair->known_count, columns, "partial derivatives") != RF_FINE)
+        return RF_ERROR;
+    for (size_t i = 0; i < sensitivities; ++i)
+        sensitivity[i] = 0.0;
+    const rf_variable *unknown, *known;
+    rf_walk row = walk(c, pair->unknowns, pair->unknown_count);
+    for (size_t i = 0; (unknown = next(&row)) != NULL; ++i) {
+        rf_walk column = walk(c, pair->knowns, pair->known_count);
+        for (size_t j = 0; (known = next(&column)) != NULL; ++j) {
+            const double *slope = entry(c, unknown, known);
+            if (!slope)
+                return rf_log(c, RF_ERROR, RF_LOG_ERROR, "no derivative of %s by %s is provided", unknown->name,
+                              known->name);
+            sensitivity[transposed ? j : i] += *slope * seed[transposed ? i : j];
         }
-        if (!isfinite(sum))
+    }
+    for (size_t i = 0; i < sensitivities; ++i)
+        if (!isfinite(sensitivity[i]))
             return rf_log(c, RF_ERROR, RF_LOG_ERROR, "partial derivative %zu is not finite", i);
-        sensitivity[i] = sum;
+    return answer;
+}
+
+/* Add the outputs some time ahead at the present states, times a weight, to c->drift. */
+static int add_ahead(rf_instance *c, double ahead, double weight, rf_message *why)
+{
+    const rf_point at = {c->now.time + ahead, c->values[RF_STATE], c->values[RF_INPUT]};
+    double *outputs = c->drift + c->sizes.outputs;
+    const int status = c->type->output(c->kernel, &at, outputs, why);
+    for (size_t i = 0; status <= RF_OUTSIDE && i < c->sizes.outputs; ++i)
+        c->drift[i] += weight * outputs[i];
+    return status;
+}
+
+/* dy/dt = C dx/dt under held inputs, and what the time itself changes, by differences forward within the next step. */
+rf_answer rf_get_output_slopes(rf_instance *c, const unsigned *references, size_t count, const int *orders,
+                               double *values, size_t numbers)
+{
+    rf_message why;
+    if (require(c, references, count, numbers, "output derivatives") != RF_FINE)
+        return RF_ERROR;
+    rf_answer answer = refresh(c, RF_DERIVATIVE);
+    answer = answer <= RF_WARNING ? derive(c) : answer;
+    if (answer > RF_WARNING)
+        return answer;
+    const double h = 1e-3 * (c->now.step > 0.0 ? c->now.step : 1e-3);
+    memset(c->drift, 0, c->sizes.outputs * sizeof *c->drift);
+    int status = add_ahead(c, 0.0, -1.5 / h, &why);
+    status = status <= RF_OUTSIDE ? add_ahead(c, h, 2.0 / h, &why) : status;
+    status = status <= RF_OUTSIDE ? add_ahead(c, 2.0 * h, -0.5 / h, &why) : status;
+    if (status > RF_OUTSIDE)
+        return rf_failed(c, status, "output derivatives", &why);
+    for (size_t i = 0; i < count; ++i) {
+        const rf_variable *v = c->resource->variables + references[i];
+        if (v->role != RF_OUTPUT || orders[i] != 1 || !c->sizes.states)
+            return rf_log(c, RF_ERROR, RF_LOG_ERROR, "outputs have derivatives of order 1 where there are states, got %s, %d",
+                          v->name, orders[i]);
+        for (uint32_t k = 0; k <= v->more; ++k) {
+            const size_t row = v[k].index;
+            double sum = c->drift[row];
+            for (size_t j = 0; j < c->sizes.states; ++j)
+                sum += c->jacobian.C[row * c->sizes.states + j] * c->values[RF_DERIVATIVE][j];
+            if (!isfinite(sum))
+                return rf_log(c, RF_ERROR, RF_LOG_ERROR, "derivative of %s is not finite", v[k].name);
+            *values++ = sum;
+        }
     }
     return answer;
 }

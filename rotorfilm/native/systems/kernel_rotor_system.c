@@ -7,8 +7,9 @@
    with the angle p, p' = w, w' = a; a bearing answers f at (motion x, w), its four rows of it. Tables: steady,
    spin (N, 2N), push (N, inputs), carry (N, 2 bearings), weight (N), unbalance (N, 2), sense (m, 2N), motion
    (4 bearings, 2N); times, speeds: the profile of the speed; bearings (b, 2): kind, as in KINDS, and set k of
-   its tables, which are named "k.name". Parameters: those of the bearings in turn; constant_speed where the
-   profile has one point. Outputs: sense x, w, f. */
+   its tables, which are named "k.name"; planes (N, 2 m): accelerations by unit forces x, y in planes of unbalance,
+   whose amounts and angles are added to the unbalance. Parameters: those of the bearings in turn; constant_speed
+   where the profile has one point; amount and angle of each plane. Outputs: sense x, w, f. */
 
 /* Documentation of the FMU
 
@@ -42,6 +43,21 @@ static void destroy(void *kernel)
     rf_mounted_destroy(kernel);
 }
 
+/* The unbalance of all planes, amounts and angles p, beside the fixed one. */
+static void set_unbalance(rf_mounted *self, const double *p)
+{
+    const size_t columns = 2 * self->plane_count;
+    memcpy(self->turned, self->fixed, 2 * self->n * sizeof *p);
+    for (size_t k = 0; k < columns; k += 2) {
+        const double c = p[k] * cos(p[k + 1]), s = p[k] * sin(p[k + 1]);
+        for (size_t i = 0; i < self->n; ++i) {
+            const double *const by = self->planes + i * columns + k;
+            self->turned[2 * i] += by[0] * c + by[1] * s;
+            self->turned[2 * i + 1] += by[1] * c - by[0] * s;
+        }
+    }
+}
+
 static int set_parameters(void *kernel, const double *p, rf_message *why)
 {
     rf_mounted *self = kernel;
@@ -51,9 +67,10 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     if (self->profile.points == 1) {
         if (!isfinite(*p))
             return rf_say(why, RF_INVALID, "constant_speed must be finite, got %.9g", *p);
-        self->profile.speeds[0] = *p;
+        self->profile.speeds[0] = *p++;
     }
     self->shift = 0.0;
+    set_unbalance(self, p);
     return RF_OK;
 }
 

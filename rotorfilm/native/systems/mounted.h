@@ -18,6 +18,9 @@ typedef struct rf_mounted {
     const double *steady, *spin, *push, *carry, *weight, *unbalance, *sense, *motion;
     rf_profile profile;
     rf_mounted_bearing *bearing;
+    const double *fixed, *planes; /* (n, 2), (n, 2 plane_count): of the unbalances that are no parameters; by forces */
+    size_t plane_count;
+    double *turned;  /* (n, 2): `unbalance`, with that of the planes */
     double *numbers; /* one block behind all that follows */
     double *moved, *force, *by_motion, *by_speed;     /* of the bearings at one point: (4b), (2b), (b, 2, 5), (2b) */
     double *inverse, *response, *reaction;            /* (n, n); (2n, 2b) to forces; (2b, 2b) */

@@ -60,12 +60,17 @@ static int take_matrices(rf_mounted *self, const rf_tables *tables, rf_message *
     if (n == 0 || n > MOST || b == 0 || b > MOST || m > MOST || s > MOST)
         return rf_say(why, RF_INVALID, "carry, push and sense must be of 1 to %d rows, got %zu, %zu, %zu, %zu",
                       MOST, n, b, m, s);
+    const rf_table *planes = rf_find_table(tables, "planes", 2, why);
+    if (!planes)
+        return RF_INVALID;
+    self->plane_count = planes->extent[1] / 2;
     const int whole = (self->steady = take(tables, "steady", n, 2 * n, why)) != NULL
                       && (self->spin = take(tables, "spin", n, 2 * n, why)) != NULL
                       && (self->push = take(tables, "push", n, m, why)) != NULL
                       && (self->carry = take(tables, "carry", n, 2 * b, why)) != NULL
                       && (self->weight = take(tables, "weight", n, 1, why)) != NULL
-                      && (self->unbalance = take(tables, "unbalance", n, 2, why)) != NULL
+                      && (self->fixed = take(tables, "unbalance", n, 2, why)) != NULL
+                      && (self->planes = take(tables, "planes", n, 2 * self->plane_count, why)) != NULL
                       && (self->sense = take(tables, "sense", s, 2 * n, why)) != NULL
                       && (self->motion = take(tables, "motion", 4 * b, 2 * n, why)) != NULL;
     return whole ? rf_take_profile(&self->profile, tables, why) : RF_INVALID;
@@ -75,7 +80,7 @@ static int allocate(rf_mounted *self, rf_message *why)
 {
     const size_t n = self->n, b = self->bearings;
     double *at = self->numbers =
-        calloc(4 * b + 2 * b + 10 * b + 2 * b + 3 * n * n + 4 * n * b + 8 * b * b + 4 * n + 17 * b + 4 * b * b, sizeof *at);
+        calloc(4 * b + 2 * b + 10 * b + 2 * b + 3 * n * n + 4 * n * b + 8 * b * b + 6 * n + 17 * b + 4 * b * b, sizeof *at);
     if (!at)
         return rf_say(why, RF_MEMORY, "no memory for a system of %zu coordinates", n);
     self->moved = at, at += 4 * b;
@@ -91,7 +96,9 @@ static int allocate(rf_mounted *self, rf_message *why)
     self->mass = at, at += 3 * b;
     self->mass_by = at, at += 12 * b;
     self->acceleration = at, at += 2 * b;
-    self->joint = at;
+    self->joint = at, at += 4 * b * b;
+    self->unbalance = self->turned = at;
+    memcpy(self->turned, self->fixed, 2 * n * sizeof *at);
     return RF_OK;
 }
 
@@ -159,7 +166,7 @@ rf_mounted *rf_mounted_create(const rf_tables *tables, rf_sizes *sizes, rf_messa
         rf_mounted_destroy(self);
         return NULL;
     }
-    sizes->parameters += self->profile.points == 1;
+    sizes->parameters += (self->profile.points == 1) + 2 * self->plane_count;
     sizes->inputs = self->inputs;
     sizes->outputs = self->sensed + 1 + 2 * self->bearings + 3 * self->masses;
     sizes->states = 2 * self->n;

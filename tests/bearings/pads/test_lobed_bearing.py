@@ -241,7 +241,7 @@ def test_bad_input_names_argument_rule_and_value():
             viscosity=VISCOSITY,
             lobes=(Lobe(start=0.0, extent=1.0), Lobe(start=2.0, extent=1.0, preload=0.2)),
         )
-    with pytest.raises(InputError, match="pad_clearance or assembled_clearance must be given, one of both"):
+    with pytest.raises(InputError, match="pad_clearance or assembled_clearance must be given, and not both"):
         LobedBearing(radius=RADIUS, length=0.1, viscosity=VISCOSITY, lobes=lobe_set("elliptical"))
 
 

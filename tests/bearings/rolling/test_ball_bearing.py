@@ -270,11 +270,11 @@ def test_stiffness_across_a_load_depends_on_where_the_balls_are():
 
 
 def test_errors_name_argument_rule_and_value():
-    with pytest.raises(InputError, match="internal_clearance or contact_angle must be given, one of both"):
+    with pytest.raises(InputError, match="internal_clearance or contact_angle must be given, and not both"):
         BallBearing(balls=8, ball_diameter=8e-3, pitch_diameter=33.5e-3)
     with pytest.raises(InputError, match="balls must find room on the pitch circle"):
         replace(DEEP, balls=20)
-    with pytest.raises(InputError, match=r"balls must find room on the pitch circle, 0\.02901 m each"):
+    with pytest.raises(InputError, match=r"on the pitch circle, which leaves 0\.02901 m for each"):
         replace(DEEP, balls=3, ball_diameter=32e-3)
     with pytest.raises(InputError, match="axial_load must be a single finite number, got nan"):
         replace(DEEP, axial_load=math.nan)

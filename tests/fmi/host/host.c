@@ -2,12 +2,14 @@
 
    VERSION is 2 or 3, INPUTS and OUTPUTS are value references separated by commas. Every line of the steps is
    the size of a step and the inputs to hold over it; the first line is set during initialization and has the
-   size 0. Prints the outputs after initialization and after every step, with all their digits. */
+   size 0. Prints the outputs after initialization and after every step, with all their digits, and at the end to
+   stderr what the calls after initialization allocated and how long a step took: set, step and get. */
 #include <dlfcn.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "fmi/fmi2FunctionTypes.h"
 #include "fmi/fmi3PlatformTypes.h"
@@ -23,6 +25,41 @@ typedef struct references {
 
 static void *library, *instance;
 static int version;
+
+/* Allocations while an FMU runs; the library takes these functions in place of those of libc. */
+static size_t allocations;
+static int running;
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+extern void *__libc_malloc(size_t);
+extern void *__libc_calloc(size_t, size_t);
+extern void *__libc_realloc(void *, size_t);
+
+void *malloc(size_t size)
+{
+    allocations += (size_t)running;
+    return __libc_malloc(size);
+}
+
+void *calloc(size_t count, size_t size)
+{
+    allocations += (size_t)running;
+    return __libc_calloc(count, size);
+}
+
+void *realloc(void *block, size_t size)
+{
+    allocations += (size_t)running;
+    return __libc_realloc(block, size);
+}
+#endif
+
+static double seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
 
 static void *function(const char *name)
 {
@@ -92,9 +129,8 @@ static void set(const references *to, const double *values)
     }
 }
 
-static void print(const references *from)
+static void take(const references *from, double *values)
 {
-    double values[MOST];
     if (version == 2) {
         LOAD(fmi2GetReal, get);
         require(get(instance, from->vr, from->count, values), "fmi2GetReal");
@@ -102,6 +138,10 @@ static void print(const references *from)
         LOAD(fmi3GetFloat64, get);
         require(get(instance, from->vr, from->count, values, from->count), "fmi3GetFloat64");
     }
+}
+
+static void print(const references *from, const double *values)
+{
     for (size_t i = 0; i < from->count; ++i)
         printf("%.17g%c", values[i], i + 1 < from->count ? ' ' : '\n');
 }
@@ -169,8 +209,25 @@ int main(int argc, char **argv)
     const references inputs = parse(argv[5]), outputs = parse(argv[6]);
     instantiate(argv[3], argv[4]);
     require(read_line(inputs.count, &dt, values) ? 0 : 3, "the table of steps");
-    for (initialize(&inputs, values); print(&outputs), read_line(inputs.count, &dt, values); t = step(t, dt))
+    initialize(&inputs, values);
+    take(&outputs, values);
+    print(&outputs, values);
+    double longest = 0.0, total = 0.0;
+    size_t steps = 0;
+    for (; read_line(inputs.count, &dt, values); ++steps) {
+        const double began = seconds();
+        running = 1;
         set(&inputs, values);
+        t = step(t, dt);
+        take(&outputs, values);
+        running = 0;
+        const double taken = seconds() - began;
+        longest = taken > longest ? taken : longest;
+        total += taken;
+        print(&outputs, values);
+    }
+    fprintf(stderr, "allocations %zu, mean step %.3g us, longest %.3g us\n", allocations,
+            1e6 * total / (double)(steps + !steps), 1e6 * longest);
     if (version == 2) {
         LOAD(fmi2FreeInstance, release);
         release(instance);

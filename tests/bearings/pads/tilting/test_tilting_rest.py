@@ -288,8 +288,8 @@ def test_contact_names_the_pad(tilting):
     ("change", "message"),
     [
         ({"preload": 1.0}, "preload must be below 1"),
-        ({"assembled_clearance": 1e-4}, "one of both"),
-        ({"pad_clearance": None}, "one of both"),
+        ({"assembled_clearance": 1e-4}, "and not both"),
+        ({"pad_clearance": None}, "and not both"),
         ({"extent": 3.2}, "extent must be below pi"),
         ({"pivots": (0.0, 1.0)}, "at least the extent"),
         ({"pivot_offset": 1.0}, "pivot_offset must be within 0 and 1"),

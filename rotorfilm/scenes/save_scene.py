@@ -1,0 +1,128 @@
+"""A rotor with its bearings as a scene, and scenes as files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import MISSING, fields, is_dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..bearings.journal import JournalBearing
+from ..bearings.linear import LinearBearing
+from ..bearings.seal import AnnularSeal
+from ..core.errors import InputError, SceneError
+from ..core.inputs import arguments
+from ..core.port import Bearings
+from ..rotors import ShaftRotor
+from .journal_tables import FILMS
+from .reading import keyed
+from .scene import Scene, read_scene
+from .shaft_table import BEAMS, SEAL_KEYS
+from .shared_tables import SCHEMA
+
+TABLES = {JournalBearing: "journal", AnnularSeal: "seal"}
+"""Keys of bearings in an entry of `shaft.bearings`."""
+
+
+@arguments
+def scene_of(rotor: ShaftRotor, bearings: Bearings, speeds: ArrayLike, title: str = "rotor") -> Scene:
+    """Return a rotor with its bearings as a scene, of which `save("rotor.toml")` makes a file.
+
+    Parameters
+    ----------
+    rotor : ShaftRotor
+        Its speed becomes that of `[operation]`.
+    bearings : mapping of str to Reaction
+        By station: `JournalBearing`, `LinearBearing` or `AnnularSeal`.
+    speeds : array_like, shape (n,) [rad/s]
+        Range that is looked at.
+    title : str
+
+    Raises
+    ------
+    InputError
+        If a scene file has no such element, bearing or number.
+    """
+    grid = np.asarray(speeds, dtype=float)
+    pieces = [one for one in rotor.elements if hasattr(one, "material")]
+    if not pieces:
+        raise InputError("rotor must have a ShaftElement for a scene, got none")
+    material = pieces[0].material
+    shaft = _plain(rotor, without=("elements", "stations", "disks", "speed", "beam"))
+    shaft |= {
+        "material": _plain(material),
+        "elements": [
+            _plain(one, without=("material",) if getattr(one, "material", None) == material else ())
+            for one in rotor.elements
+        ],
+        "disks": [{"mass": one.mass, **_plain(one)} for one in rotor.disks],
+        "bearings": [
+            {**_plain(station), **_bearing(bearings[station.name], station.name)}
+            for station in rotor.stations
+        ],
+        "speeds": {"first": float(grid[0]), "last": float(grid[-1]), "count": grid.size},
+        "beam": next(name for name, kind in BEAMS.items() if type(rotor.beam) is kind),
+    }
+    tables = {
+        "schema": SCHEMA,
+        "title": title,
+        "operation": {"speed": rotor.profile.speed(0.0)},
+        "shaft": shaft,
+    }
+    try:
+        found = read_scene(tables, "scene")
+    except SceneError as error:
+        raise InputError(f"rotor must be what a scene file may hold: {error}") from None
+    if found.shaft.build(speed=rotor.profile.speed(0.0)) != rotor:
+        raise InputError("rotor must be what a scene file may hold, got one with more than that")
+    return found
+
+
+def _bearing(bearing: Any, name: str) -> dict[str, Any]:
+    if isinstance(bearing, LinearBearing):
+        return {key: np.asarray(getattr(bearing, key)).tolist() for key in ("stiffness", "damping")}
+    key = TABLES.get(type(bearing))
+    if key is None:
+        raise InputError(f"bearings[{name!r}] must be one that [shaft] of a scene takes, got {bearing!r}")
+    found = _plain(bearing)
+    if key == "seal":
+        found = {one: value for one, value in found.items() if one in SEAL_KEYS}
+    elif "film" in found:
+        laws = {keyed(table).makes: (law, keyed(table).readers) for law, table in FILMS.items()}
+        law, known = laws.get(type(bearing.film), ("", {}))
+        found["film"] = {"name": law, **{one: value for one, value in found["film"].items() if one in known}}
+    return {key: found}
+
+
+def _plain(thing: Any, without: tuple[str, ...] = ()) -> dict[str, Any]:
+    """Return what a dataclass holds besides its defaults, as TOML has it."""
+    found = {}
+    for one in fields(thing):
+        usual = one.default if one.default_factory is MISSING else one.default_factory()
+        value = getattr(thing, one.name)
+        if one.init and one.name not in without and (usual is MISSING or repr(value) != repr(usual)):
+            found[one.name] = _toml(value)
+    return found
+
+
+def _toml(value: Any) -> Any:
+    if is_dataclass(value):
+        return _plain(value)
+    if isinstance(value, tuple | list | np.ndarray):
+        return [_toml(one) for one in value]
+    if isinstance(value, Mapping):
+        return {key: _toml(one) for key, one in value.items()}
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def save_scene(scene: Scene, path: Path | str) -> Path:
+    """Write a scene as a file; return the path."""
+    from ..core.files import write_atomically
+    from .new_scene import scene_text
+
+    if not scene.given:
+        raise InputError("scene must be read, or made by scene_of, to be saved, got one of tables")
+    return write_atomically(path, scene_text(scene.given).encode())

@@ -1,0 +1,197 @@
+"""`turbulence = "auto"` of a bearing's table: whether a film is turbulent, and what a scene says of it."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+from ..analysis import equilibrium
+from ..bearings.films.turbulence import CLOSURES, Turbulence, onset
+from ..bearings.journal import ExtrapolatedFilm, JFOFilm, JournalBearing, ReynoldsFilm
+from ..bearings.oil.oil import film_reynolds
+from ..core.errors import RotorfilmError, SceneError, ValidityWarning, brief
+from .reading import Keyed, Quantity, Table, choose, flag, one_of, takes
+
+AUTO, NONE = "auto", "none"
+"""Laminar below the onset and turbulent above it; laminar at any Reynolds number."""
+
+QUADRATURE = "reichardt"
+"""The closure that the others fit, and that costs a film no more."""
+
+NUMBER = Quantity("1")
+
+
+@takes(flag, [NUMBER, NUMBER])
+def read_band(where: str, value: Any) -> bool | tuple[float, ...]:
+    """Read whether there is a band of transition, or the Reynolds numbers of its edges."""
+    if isinstance(value, bool):
+        return value
+    if not isinstance(value, list):
+        raise SceneError(f"{where} must be true, false or two Reynolds numbers, got {brief(value)}")
+    return tuple(NUMBER(f"{where}[{k}]", entry) for k, entry in enumerate(value))
+
+
+TABLE = Table(
+    Keyed(Turbulence, {"closure": one_of(CLOSURES), "band": read_band, "density": Quantity("kg/m3")})
+)
+
+CHOICES: Mapping[str, str | Turbulence] = {
+    AUTO: AUTO,
+    NONE: NONE,
+    **{name: Turbulence(closure=name) for name in CLOSURES},
+}
+
+
+@takes(CHOICES, TABLE)
+def read_turbulence(where: str, value: Any) -> str | Turbulence:
+    """Read "auto", "none", the name of a closure, or a table of a `Turbulence`."""
+    if isinstance(value, str):
+        return choose(where, value, CHOICES)
+    found: Turbulence = TABLE(where, value)
+    return found
+
+
+def effect_of(table: Any) -> Turbulence | None:
+    """Return the turbulence of the bearing of a table; None where it is laminar or not decided yet."""
+    return table.turbulence if isinstance(table.turbulence, Turbulence) else None
+
+
+# Whether a scene that leaves it open is turbulent.
+
+
+HOTTER = 60.0
+"""Kelvins by which the oil of a film may be warmer than the supply, for a first look."""
+
+
+def decided(table: Any, scene: Any) -> Any:
+    """Return the table of a bearing with its turbulence where that is "auto" and the film is turbulent.
+
+    Above the onset, at the temperature of the laminar balance. A film that is named and not on a grid stays
+    laminar, and so does one that conserves its oil.
+    """
+    if getattr(table, "turbulence", NONE) != AUTO or not table.has_lubricant or not _takes(table):
+        return table
+    bearing = table.build()
+    return replace(table, turbulence=turbulence_of(bearing, scene)) if is_above(bearing, scene) else table
+
+
+def turbulence_of(bearing: Any, scene: Any) -> Turbulence:
+    """Return the turbulence of a bearing above its onset, on its oil or on that of the scene."""
+    density = None if bearing.oil is not None else scene.lubricant.properties.density
+    return Turbulence(closure=QUADRATURE, density=density)
+
+
+def is_left_laminar(table: Any, scene: Any) -> bool:
+    """Return whether the film of a table is laminar above its onset, as it is named or asked to be."""
+    choice = getattr(table, "turbulence", None)
+    if choice is None or (choice == AUTO and _takes(table)):
+        return False
+    return effect_of(table) is None and is_above(table.build(), scene)
+
+
+def is_above(bearing: Any, scene: Any) -> bool:
+    """Return whether a bearing of a scene is above the onset at the temperature of its laminar balance."""
+    density, speed = scene.lubricant.properties.density, scene.speed
+    if isinstance(bearing, JFOFilm) or not _may_be(bearing, density, speed):
+        return False
+    warm = warmed(bearing, scene.static_load, speed) if bearing.is_warming else bearing
+    return is_turbulent_at(warm, density, speed)
+
+
+def _takes(table: Any) -> bool:
+    film = getattr(table, "film", None)
+    if film is None or isinstance(film, ReynoldsFilm):
+        return not getattr(table, "conserves", False)
+    from ..bearings.pads import PadGridFilm
+
+    return isinstance(film, PadGridFilm)
+
+
+def _may_be(bearing: Any, density: float, speed: float) -> bool:
+    """Return whether a film is turbulent, or would be with its oil hotter than it may get."""
+    if not bearing.is_warming:
+        return is_turbulent_at(bearing, density, speed)
+    oil, cooling = bearing.cooled
+    hot = min(cooling.supply_temperature + HOTTER, oil.law.temperature_range[1])
+    return is_turbulent_at(bearing.at_temperature(hot), density, speed)
+
+
+def is_turbulent_at(bearing: Any, density: float, speed: float) -> bool:
+    """Return whether the Reynolds number of a bearing of one temperature is above the onset.
+
+    The density [kg/m3] is that of a bearing that has a viscosity and no oil.
+    """
+    R, c = bearing.radius, bearing.onset_clearance
+    own = bearing.film_density if bearing.oil is not None else density
+    return film_reynolds(R, c, bearing.film_viscosity, own, speed).reynolds > onset(R, c)
+
+
+def quick(bearing: Any) -> Any:
+    """Return a bearing with a film on a coarse grid."""
+    if isinstance(bearing, JournalBearing):
+        return replace(bearing, film=ExtrapolatedFilm(film=ReynoldsFilm(cells=(48, 8))))
+    from ..bearings import pads  # which scenes of plain bearings do without
+
+    if isinstance(bearing, pads.PressureDamBearing):
+        return replace(bearing, cells=(32, 8))
+    return replace(bearing, film=pads.PadGridFilm(cells=(48, 4)))
+
+
+def quiet(call: Callable[..., Any], *arguments: Any) -> Any:
+    """Return what a call returns without its warnings; None where it has no answer."""
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+        try:
+            return call(*arguments)
+        except RotorfilmError:
+            return None
+
+
+def warmed(bearing: Any, load: tuple[float, float], speed: float) -> Any:
+    """Return a bearing at the temperature of its balance, or of fresh oil where it has no equilibrium."""
+    at = quiet(equilibrium, quick(bearing), load, speed)
+    return bearing.at_temperature(bearing.coldest() if at is None else at.temperature)
+
+
+# What a scene says of a turbulent film.
+
+
+def other_band(effect: Turbulence) -> Turbulence:
+    """Return the same closure without a band of transition, or with one where there is none."""
+    return replace(effect, band=effect.band is False)
+
+
+def turbulent_remarks(bearing: Any, speed: float, load: tuple[float, float]) -> tuple[str, ...]:
+    """Return what a scene says of a turbulent bearing: its numbers, and what the band changes."""
+    effect = bearing.turbulence
+    if effect is None:
+        return ()
+    pair = quick(bearing), replace(quick(bearing), turbulence=other_band(effect))
+    own, other = (quiet(equilibrium, one, load, speed) for one in pair)
+    if own is None or other is None:
+        return ()
+    lost, less = (float(at.losses.power_loss) for at in (own, other))
+    return (
+        f"turbulence: {said_of(bearing, own, speed)}; {_without(effect)} the film takes {1e-3 * less:.4g} kW "
+        f"in place of {1e-3 * lost:.4g} kW, at eccentricity ratio {other.eccentricity_ratio:.3f} in place of "
+        f"{own.eccentricity_ratio:.3f}",
+    )
+
+
+def said_of(bearing: Any, at: Any, speed: float) -> str:
+    """Return Reynolds number, its range, closure and band of a bearing in an equilibrium."""
+    warm = bearing if at.temperature is None else bearing.at_temperature(at.temperature)
+    R, c, effect = bearing.radius, bearing.clearance, bearing.turbulence
+    density = effect.density or warm.film_density
+    reynolds = film_reynolds(R, c, warm.film_viscosity, density, speed).reynolds
+    least, edges = at.minimum_film / c, effect.edges(R, bearing.onset_clearance)
+    band = "no band of transition" if edges is None else f"band {edges[0]:.4g} to {edges[1]:.4g}"
+    return (
+        f"Reynolds number {reynolds:.4g}, from {least * reynolds:.3g} in the thinnest film on, onset at "
+        f"{onset(R, bearing.onset_clearance):.4g}; closure {effect.closure}, {band}"
+    )
+
+
+def _without(effect: Turbulence) -> str:
+    return "with a band" if effect.band is False else "without the band, behind which no measurement stands,"

@@ -1,0 +1,141 @@
+"""Turbulence in scenes: what "auto" decides, what is said, and what the estimates of questions count."""
+
+import warnings
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import rotorfilm as rf
+from rotorfilm import SceneError, ValidityWarning
+from rotorfilm.bearings import Turbulence
+from rotorfilm.bearings.films import turbulence
+from rotorfilm.bearings.journal.full_stress import eddy_flows, full_stress_forces
+from rotorfilm.scenes.scene import parse_scene
+
+TURBINE = """
+schema = 1
+[journal]
+radius = "250 mm"
+length = "400 mm"
+clearance = "0.5 mm"
+{keys}
+[operation]
+speed = "{speed} rpm"
+load = "300 kN"
+[lubricant]
+density = 855
+"""
+QUESTION = '[question]\nquantity = "{quantity}"\ntolerance = "{tolerance} %"\n'
+MU = 'viscosity = "0.0156 Pa s"\n'
+
+
+def scene(keys=MU, speed=3000, further=""):
+    return parse_scene(TURBINE.format(keys=keys, speed=speed) + further, "case.toml")
+
+
+def quietly(call):
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+        return call()
+
+
+def test_auto_is_laminar_below_the_onset_and_the_quadrature_above_it():
+    assert scene().journal.turbulence == Turbulence(closure="reichardt", density=855.0)
+    slow = [scene(MU + f'turbulence = "{choice}"', speed=500) for choice in ("auto", "none")]
+    assert slow[0].journal.turbulence == "auto"
+    one, other = (quietly(one.solve) for one in slow)
+    assert np.array_equal(one.equilibrium.position, other.equilibrium.position)
+    assert one.remarks == other.remarks
+    short = quietly(lambda: scene(MU + 'film = { name = "short" }'))
+    assert short.journal.turbulence == "auto"
+    assert any("turbulent above" in remark for remark in quietly(lambda: short.film_remarks))
+
+
+def test_closures_and_tables_are_read_and_others_refused():
+    read = scene(MU + 'turbulence = { closure = "hirs", band = [1000, 3000] }').journal_bearing.turbulence
+    assert read == Turbulence(closure="hirs", band=(1000.0, 3000.0))
+    assert scene(MU + 'turbulence = "hirs"').journal_bearing.turbulence == Turbulence(closure="hirs")
+    pads = '[lobed_journal]\npreset = "elliptical"\nradius = "250 mm"\nlength = "400 mm"\n'
+    pads += 'pad_clearance = "0.7 mm"\nviscosity = "0.0156 Pa s"\n'
+    rest = TURBINE.format(keys=MU, speed=3000)
+    lobed = parse_scene("schema = 1\n" + pads + rest[rest.index("[operation]") :], "case.toml")
+    assert lobed.bearing.turbulence.closure == "reichardt"
+    for bad, message in (('"prandtl"', "must be one of"), ("{ band = 5 }", "two Reynolds numbers")):
+        with pytest.raises(SceneError, match=message):
+            scene(MU + f"turbulence = {bad}")
+
+
+def test_what_is_said_has_the_numbers_and_the_other_end_of_the_band():
+    answer = quietly(scene().solve)
+    said = next(remark for remark in answer.remarks if remark.startswith("turbulence"))
+    for part in (
+        "Reynolds number 2152",
+        "onset at 921.3",
+        "closure reichardt",
+        "band 921.3 to 1843",
+        "kW in place of",
+    ):
+        assert part in said, said
+    assert not any("Taylor vortices" in remark for remark in answer.remarks)
+
+
+def test_a_film_that_is_asked_to_be_laminar_meets_no_tolerance_above_its_onset():
+    further = QUESTION.format(quantity="power_loss", tolerance=5)
+    laminar = quietly(scene(MU + 'turbulence = "none"', further=further).ask)
+    own = quietly(scene(MU + 'turbulence = "reichardt"', further=further).ask)
+    assert not laminar.met
+    assert own.met
+    assert "turbulent by reichardt" in own.within
+    truth = abs(laminar.value / own.value - 1.0)
+    assert 0.5 * truth < laminar.error_estimate < 2.0 * truth
+
+
+@pytest.mark.parametrize("quantity", ["eccentricity_ratio", "power_loss", "stiffness"])
+def test_the_estimate_counts_what_the_quadrature_and_the_full_stress_change(quantity):
+    keys = MU + 'turbulence = { closure = "ng_pan", band = false, density = 855 }'
+    asked = scene(keys, further=QUESTION.format(quantity=quantity, tolerance=10))
+    answer = quietly(asked.ask)
+    rich = replace(
+        asked.journal_bearing, turbulence=Turbulence(closure="reichardt", band=False, density=855.0)
+    )
+    at = rf.equilibrium(rich, asked.static_load, asked.speed)
+    linear, full = full_stress_forces(rich, at.position, asked.speed)
+    at = rf.equilibrium(rich, np.array(asked.static_load) + full - linear, asked.speed)
+    known = {
+        "eccentricity_ratio": at.eccentricity_ratio,
+        "power_loss": at.losses.power_loss,
+        "stiffness": rf.coefficients(rich, at.position, asked.speed).stiffness,
+    }[quantity]
+    truth = np.abs(answer.value - known).max() / np.abs(known).max()
+    assert answer.met
+    assert 0.5 * truth < answer.error_estimate < 4.0 * truth + 0.01
+
+
+def test_the_full_stress_is_that_of_the_note():
+    """Elrod & Ng (1967): conductances over the linear ones at Re 2000; the force of the large bearing."""
+    number = np.array([2000.0])
+    k_x, k_z, _ = turbulence.reichardt(number)
+    for steep, along, across in (
+        (3.0, 1.00, 0.99),
+        (10.0, 0.97, 0.93),
+        (30.0, 0.81, 0.68),
+        (100.0, 0.54, 0.42),
+    ):
+        x, z = eddy_flows(number, np.array([steep]), np.array([0.01]))
+        assert_allclose((k_x * x, k_z * z), [[along], [across]], atol=6e-3)
+    x, z = eddy_flows(number, np.array([0.01]), np.array([10.0]))
+    assert_allclose((k_x * x, k_z * z), [[0.94], [0.84]], atol=6e-3)
+    bearing = rf.JournalBearing(
+        radius=0.25,
+        length=0.4,
+        clearance=5e-4,
+        viscosity=0.01543,
+        turbulence=Turbulence(closure="reichardt", band=False),
+    )
+    speed = 100.0 * np.pi
+    at = rf.equilibrium(bearing, [0.0, -3e5], speed)
+    linear, full = full_stress_forces(bearing, at.position, speed)
+    assert np.hypot(*full) / np.hypot(*linear) - 1.0 == pytest.approx(0.014, abs=1e-3)
+    eased = rf.equilibrium(bearing, np.array([0.0, -3e5]) + full - linear, speed)
+    assert at.eccentricity_ratio - eased.eccentricity_ratio == pytest.approx(0.0035, abs=4e-4)
