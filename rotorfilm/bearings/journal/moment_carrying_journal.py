@@ -135,9 +135,8 @@ class TiltEstimate(NamedTuple):
 
     The estimates come from the part of the force that the tilt makes. Of a plain bearing at rest they hold
     within a factor of two in nine of ten states, of a moment in 17 of 20, of the force of second order in
-    eight of ten. Near the
-    center, where the end shifts 1.5 times as far as the middle or more, they come from both shifts and rather
-    say too much.
+    eight of ten. Near the center they come from the shifts of end and middle, and rather say too much: there
+    the end shifts 1.5 times as far as the middle, or more.
 
     Attributes
     ----------
@@ -201,9 +200,8 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
 
     - `NONE`: the aligned force, which has an error of d, and no moment;
     - `CLOSED_FORM`: that force, and a moment T = g F_w w1 + 2 g F_e tau with a usual error of 15 to 30 %,
-      and of up to 92 % where it is small. Here w
-      and w1 are the sources of e and tau, and g = (1/3 - (l coth l - 1)/l^2)/(1 - tanh(l)/l) with l =
-      length/diameter, as of a centered full film;
+      and of up to 92 % where it is small. Here w and w1 are the sources of e and tau, and with l =
+      length/diameter g = (1/3 - (l coth l - 1)/l^2)/(1 - tanh(l)/l), as of a centered full film;
     - `SECOND_ORDER`: second order in the tilt, from a map of the plain bearing, which is made in half a
       minute and kept. Its force has an error of 0.04 % at t = 0.2 and 0.7 % at t = 0.4, its moment 3 and
       11 %, at rest at eccentricity ratios from 0.3. It holds where |w1| is at most 1.5 |w|: not near the
@@ -436,9 +434,8 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
         at = state.tolist()
         if status == Status.OUTSIDE:
             warn_user(
-                "the journal should be within the maps of its film, and a tilt take 60 % of the aligned "
-                "least film at most and drive the film 1.5 times as much as the displacement, got "
-                f"{at} in m, rad and s from the bush: the force is continued, take TiltLevel.FULL"
+                "a tilt should at most take 60 % of the aligned least film and drive it 1.5 times as much as the "
+                f"displacement, within the maps of the film, got {at} (SI): TiltLevel.FULL has no such limits"
             )
             return
         planar = state[:2], state[4:6], float(state[8])
