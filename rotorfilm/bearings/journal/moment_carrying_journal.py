@@ -435,7 +435,7 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
         if status == Status.OUTSIDE:
             warn_user(
                 "a tilt should at most take 60 % of the aligned least film and drive it 1.5 times as much as "
-                f"the displacement, within the maps of the film, got {at} (SI): TiltLevel.FULL has no such limits"
+                f"the displacement, within the maps of the film, got {at}: TiltLevel.FULL has no such limit"
             )
             return
         planar = state[:2], state[4:6], float(state[8])
