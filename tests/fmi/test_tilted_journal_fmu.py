@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 
-from rotorfilm import JournalBearing, export_fmu
+from rotorfilm import JournalBearing, ValidityWarning, export_fmu
 from rotorfilm.bearings import MomentCarryingJournal
 from rotorfilm.bearings.journal import TiltLevel
 from rotorfilm.bearings.journal.tilt_map import build_tilt_table
@@ -67,6 +67,18 @@ def test_parameters_are_tunable_and_contact_is_said(version, table, opened):
     with pytest.raises(FMICallException):
         instance.get(outputs)
     assert any("the ends of the journal must stay inside" in line for line in instance.log)
+
+
+@versions
+def test_a_tilt_that_drives_the_film_alone_is_warned_of(version, table, opened):
+    state = np.array([0.0, -4e-5, 2e-4, 0.0, 0.0, 0.0, 0.1, 0.0, 1e-2])
+    model = held(TiltLevel.SECOND_ORDER, table)
+    instance, reference = opened(model, version, False)
+    instance.initialize([reference[one] for one in INPUTS], state.tolist())
+    found = instance.get([reference[one] for one in OUTPUTS])
+    with pytest.warns(ValidityWarning, match="1.5 times"):
+        np.testing.assert_allclose(found, model.output(0.0, (), state), rtol=1e-12)
+    assert any("1.5 times as much as the displacement" in line for line in instance.log)
 
 
 def test_what_has_no_kernel_has_none(table):

@@ -32,7 +32,7 @@ from ..oil import Cooling, Oil
 from ..oil.heated_bearing import FilmHeat, balance_temperature, fed_temperature, film_heat
 from ..reaction import NOMINAL_SPEED
 from .bearing import JournalBearing, StaticFilm, fitted_bearing
-from .moment_carrying_journal import TiltedJournal
+from .moment_carrying_journal import TiltedJournal, kind_of
 from .reynolds_film import ReynoldsFilm
 
 # What a film that conserves its oil takes from the shaft, and its flows at openings.
@@ -385,7 +385,8 @@ class MomentCarryingJFOFilm(TiltedJournal, ConservedAtRest):
         require_kind("film", self.film, JFOFilm, "a JFOFilm")
         if self.bearing.geometry.circumferential:
             raise InputError(
-                f"film must be of a bearing without a circumferential groove, got {self.bearing!r}"
+                "film must be of a bearing without a circumferential groove, got a groove of "
+                f"{self.bearing.circumferential_groove:g} m"
             )
 
     @property
@@ -564,7 +565,7 @@ def _require_closed(bearing: JournalBearing) -> None:
     if bearing.pads or not bearing.geometry.pockets or bearing.geometry.circumferential:
         raise InputError(
             "supply_flow must be None unless all openings of the bearing are grooves of a length or feed "
-            f"holes, got {bearing!r}"
+            f"holes, got {kind_of(bearing)}"
         )
     if bearing.supply_pressure > 0.0:
         raise InputError(

@@ -7,6 +7,7 @@
 
 #define ROWS RF_TILT_ROWS
 #define PAIRS 10
+#define LEAST 1e-12 /* |w| over |w1|, below which only the direction of w counts */
 
 /* Entries of S in turn: rows and columns of (tau_n, tau_m, w1_n, w1_m). */
 static const int FIRST[PAIRS] = {0, 0, 1, 0, 0, 1, 1, 2, 2, 3}, SECOND[PAIRS] = {0, 1, 1, 2, 3, 2, 3, 2, 3, 3};
@@ -225,7 +226,7 @@ static void set_slopes(matrices *S, const products *p, double a, const rf_frame 
     put(at, T_u, 2, 6, by);
 }
 
-int rf_tilt_wrench(const rf_tilt_map *map, const double *q, const double *drive, double *f, double *by)
+static int second_order(const rf_tilt_map *map, const double *q, const double *drive, double *f, double *by)
 {
     rf_frame at;
     matrices S;
@@ -257,4 +258,36 @@ int rf_tilt_wrench(const rf_tilt_map *map, const double *q, const double *drive,
         return RF_NOT_FINITE;
     const int far = X > map->x.last * (1.0 + RF_ROUNDING) || rf_length(q[2], q[3]) > RF_TILT_SHARE * (1.0 - at.chi);
     return far ? RF_OUTSIDE : RF_OK;
+}
+
+/* F and its slopes of a source of the tilt that is held, w1 = (2 y - y^2) w1, in place of those found. */
+static int hold_force(const rf_tilt_map *map, const double *q, const double *drive, double y, double *f, double *by)
+{
+    const double held = y * (2.0 - y), slope = 2.0 * y * (1.0 - y), *w = drive, *u = drive + 2;
+    const double ww = w[0] * w[0] + w[1] * w[1], uu = u[0] * u[0] + u[1] * u[1];
+    const double low[4] = {w[0], w[1], held * u[0], held * u[1]};
+    double force[4], slopes[32];
+    const int status = second_order(map, q, low, force, by ? slopes : NULL);
+    memcpy(f, force, 2 * sizeof *f);
+    for (int i = 0; by && i < 2; ++i) {
+        double *row = memcpy(by + 8 * i, slopes + 8 * i, 8 * sizeof *by);
+        const double along = slope * (row[6] * u[0] + row[7] * u[1]);
+        for (int k = 0; k < 2; ++k) {
+            row[4 + k] += along * w[k] / ww;
+            row[6 + k] = held * row[6 + k] - along * u[k] / uu;
+        }
+    }
+    return status > RF_OUTSIDE ? status : RF_OUTSIDE;
+}
+
+int rf_tilt_wrench(const rf_tilt_map *map, const double *q, const double *drive, double *f, double *by)
+{
+    double at[4] = {drive[0], drive[1], drive[2], drive[3]};
+    const double size = rf_length(drive[0], drive[1]), other = rf_length(drive[2], drive[3]);
+    if (size < LEAST * other && !(by && size == 0.0))
+        for (int k = 0; k < 2; ++k)
+            at[k] = size > 0.0 ? LEAST * other * (drive[k] / size) : LEAST * drive[2 + k];
+    const int status = second_order(map, q, at, f, by);
+    const double y = RF_TILT_DRIVE * rf_length(at[0], at[1]) / other;
+    return status <= RF_OUTSIDE && y < 1.0 ? hold_force(map, q, at, y, f, by) : status;
 }

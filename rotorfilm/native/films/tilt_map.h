@@ -18,6 +18,7 @@
 #define RF_TILT_ROWS 12    /* numbers at a node: L, ten of S, and one that fills up */
 #define RF_TILT_COLUMNS 10 /* of the derivatives */
 #define RF_TILT_SHARE 0.6  /* of the aligned least film, the most that a tilt may take where the map is meant */
+#define RF_TILT_DRIVE 1.5  /* the most that |w1| may be, over |w|, likewise */
 
 typedef struct rf_tilt_map {
     rf_axis x, s;               /* X and c */
@@ -26,8 +27,11 @@ typedef struct rf_tilt_map {
 } rf_tilt_map;
 
 /* What the tilt adds to F, and T, f[4], at q[4] = (e, tau) and drive[4] = (w, w1), in the units of film.h; unless NULL
-   by[4][8] = d f/d(q, drive). RF_OUTSIDE beyond the last node or RF_TILT_SHARE, RF_AT_WALL where an end touches,
-   RF_NOT_FINITE; without w RF_UNDEFINED and zeros. */
+   by[4][8] = d f/d(q, drive). RF_OUTSIDE beyond the last node, RF_TILT_SHARE or RF_TILT_DRIVE, RF_AT_WALL where an end
+   touches, RF_NOT_FINITE; without w RF_UNDEFINED for derivatives and, without w1 either, zeros.
+
+   J2 is no expansion where w1 is large beside w: F would grow as w1^2/|w|. With y = RF_TILT_DRIVE |w|/|w1| < 1, F is
+   that of (2 y - y^2) w1: it goes on smoothly, and to 0 with w. T is linear in w1 and stays; without w, n is along w1. */
 RF_EXPORT_LOOP int rf_tilt_wrench(const rf_tilt_map *map, const double *q, const double *drive, double *f, double *by);
 
 #endif

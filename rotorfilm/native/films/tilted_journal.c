@@ -26,6 +26,12 @@ static void set_shift(const rf_tilted *journal, const double *state, double *d, 
     v[1] = -journal->arm * state[RATE_X];
 }
 
+/* Whether the source of a displacement d with the rate v is not zero. */
+static int is_driven(const double *d, const double *v, double speed)
+{
+    return v[0] + 0.5 * speed * d[1] != 0.0 || v[1] - 0.5 * speed * d[0] != 0.0;
+}
+
 /* T of the closed form, for derivatives by[2][5] of the force. */
 static void closed_form(const rf_tilted *journal, const double *by, double speed, const double *d, const double *v, double *T)
 {
@@ -154,12 +160,13 @@ int rf_tilted_at(const rf_tilted *journal, const double *state, double *f, doubl
     set_shift(journal, state, d, v);
     const int differentiated = jacobian || (!journal->map && journal->share > 0.0);
     int status = journal->aligned(journal->of, own, f, differentiated ? by : NULL);
-    if (status == RF_UNDEFINED && !jacobian) {
-        f[2] = f[3] = 0.0;
-        return rf_is_broken(f, 2) ? RF_NOT_FINITE : RF_OK;
-    }
-    if (status >= RF_UNDEFINED)
+    const int aside = own[0] != 0.0 || own[1] != 0.0;
+    const int still = !jacobian && (status == RF_UNDEFINED || (status == RF_OK && aside && !is_driven(own, own + 2, own[4])));
+    if (still && !journal->map)
+        return rf_is_broken(f, 2) ? RF_NOT_FINITE : is_driven(d, v, own[4]) ? RF_OUTSIDE : RF_OK;
+    if (status >= RF_UNDEFINED && !still)
         return status;
+    status = still ? RF_OK : status;
     for (int i = 0; i < 2 && jacobian; ++i)
         for (int k = 0; k < 5; ++k)
             jacobian[STATE * i + PLANAR[k]] = by[5 * i + k];

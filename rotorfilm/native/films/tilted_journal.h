@@ -24,7 +24,8 @@ typedef struct rf_tilted {
 } rf_tilted;
 
 /* Force and moment and, unless NULL, jacobian[4][9]: exact with a map; else moments by differences of the exact
-   derivatives of the force. The status is the worse one of both films. */
+   derivatives of the force. The status is the worse one of both films;
+   RF_OUTSIDE too where the tilt alone drives the film of a journal aside, which the aligned film does not feel. */
 RF_EXPORT_LOOP int rf_tilted_at(const rf_tilted *journal, const double *state, double *f, double *jacobian);
 
 /* The same of n states, rows of n; jacobian 36 rows or NULL. */

@@ -217,11 +217,11 @@ def test_a_crown_and_a_profile_widen_the_gap():
 
 
 def test_estimates_hold_within_a_factor_of_two(second):
-    """Nine of ten of 60 random states: eccentricity 0.1 to 0.85, a tilt that takes 0.1 to 0.6 of the film."""
+    """Nine of ten forces and 17 of 20 moments: eccentricity 0.1 to 0.85, 0.1 to 0.6 of the film taken."""
     rng, film = np.random.default_rng(7), tilt_map.whole_film(1.0, (64, 4))
     kernel = tilt_map.TiltMapKernel(second.tilt_map)
-    ratios = []
-    for _ in range(60):
+    ratios, centered = [], []
+    for _ in range(100):
         chi, share, way, angle = rng.uniform([0.1, 0.1, 0.0, 0.0], [0.85, 0.6, 6.3, 6.3])
         e = chi * np.array([math.cos(way), math.sin(way)])
         place = np.array([*e, *(share * (1.0 - chi) * np.array([math.cos(angle), math.sin(angle)]))])
@@ -235,14 +235,18 @@ def test_estimates_hold_within_a_factor_of_two(second):
             (np.hypot(*(more - exact)[2:]) / np.hypot(*exact[2:]), told.moment_error),
         )
         ratios.append([error / estimate for error, estimate in errors])
-    ratios = np.array(ratios)
-    assert np.all(np.mean((ratios < 2.0) & (ratios > 0.5), axis=0) >= 0.9)
+        centered.append(np.hypot(*place[2:]) > 1.5 * chi)
+    ratios, centered = np.array(ratios), np.array(centered)
+    assert centered.sum() > 5
+    assert np.all(ratios[centered] < 2.0)
+    ratios = ratios[~centered]
+    assert np.all(np.mean((ratios < 2.0) & (ratios > 0.5), axis=0) >= (0.9, 0.85))
 
 
 def test_estimates_of_other_bearings_go_by_the_share_of_the_film():
     told = MomentCarryingJournal(bearing=GROOVED).estimate(AT, 300.0)
     assert told.correction == pytest.approx(0.57 * told.share**2)
-    assert (told.force_error, told.moment_error) == (0.0, 0.0)
+    assert (told.force_error, told.moment_error) == pytest.approx((0.02, 0.048))  # of 48 x 4 cells
     assert told.end_shift == pytest.approx(0.5 * 0.1 / 1e-4 * math.hypot(1e-4, 2e-4))
     assert told.share == pytest.approx(told.end_shift * 1e-4 / (1e-4 - math.hypot(2e-5, 4e-5)))
 
@@ -258,6 +262,98 @@ def test_contact_and_rest_are_said(second):
             held.jacobian(AT, np.zeros(4), 0.0)
     batch = second.force(np.stack([AT, 0.5 * AT], axis=1), RATE[:, None], 300.0)
     assert_allclose(batch[:, 1], second.force(0.5 * AT, RATE, 300.0), rtol=1e-14)
+
+
+STILL = np.zeros(4)
+FULL = MomentCarryingJournal(bearing=GRID)
+MOVING = np.array([0.0, 0.0, 0.1, 0.0])
+
+
+def warned_force(held, place, rate, speed):
+    """Return the force and moment of a journal that must warn of what drives its film."""
+    with pytest.warns(rf.ValidityWarning, match="1.5 times as much as the displacement"):
+        return held.force(place, rate, speed)
+
+
+def test_a_tilt_that_moves_in_a_slow_film_is_outside(second):
+    """The force tends to that of the aligned film, which is below the full one, and does not diverge."""
+    place = np.array([0.0, -4e-5, 2e-4, 0.0])
+    full = FULL.force(place, MOVING, 1e-3)
+    for speed in (1.0, 1e-2, 1e-4, 1e-9, 0.0):
+        found = warned_force(second, place, MOVING, speed)
+        assert np.hypot(*found[:2]) < np.hypot(*full[:2])
+        assert np.hypot(*found[2:]) == pytest.approx(np.hypot(*full[2:]), rel=0.25)
+    spin = 0.999 * 150.0 * np.array([4e-5, 0.0, 0.0, 0.0])  # nearly at half the speed of the shaft
+    assert np.hypot(*warned_force(second, place, spin, 300.0)[:2]) < 277.0
+    for held in (closed(), replace(closed(), level=TiltLevel.NONE)):
+        assert not warned_force(held, place, MOVING, 0.0).any()
+        assert not held.force([0.0, 0.0, 2e-4, 0.0], STILL, 300.0)[:2].any()
+
+
+def test_second_order_goes_on_smoothly_where_the_tilt_drives_more(second):
+    """Force and derivatives are continuous at |w1| = 1.5 |w|, and exact beyond."""
+    place = np.array([2e-5, -4e-5, 1e-4, 5e-5])
+    source = 150.0 * TURN @ second._scales @ place
+    more = np.array([0.3, -0.7]) / np.hypot(0.3, -0.7) * 1.5 * np.hypot(*source[:2])
+    inside, beyond = (
+        np.linalg.solve(second._scales, [0.0, 0.0, *(part * more - source[2:])])
+        for part in (1.0 - 1e-9, 1.0 + 1e-9)
+    )
+    force, slopes = second.force(place, inside, 300.0), second.jacobian(place, inside, 300.0)
+    assert_allclose(warned_force(second, place, beyond, 300.0), force, rtol=1e-7)
+    far = np.linalg.solve(second._scales, [0.0, 0.0, *(2.5 * more - source[2:])])
+    with pytest.warns(rf.ValidityWarning):
+        after = second.jacobian(place, beyond, 300.0)
+    with pytest.warns(rf.ValidityWarning):
+        out = second.jacobian(place, far, 300.0)
+    with pytest.warns(rf.ValidityWarning):
+        steps = differences(second, place, far, 300.0)
+    sizes = np.abs(slopes).max(axis=0)
+    assert_allclose(after / sizes, slopes / sizes, atol=1e-6)
+    assert_allclose(steps / np.abs(out).max(axis=0), out / np.abs(out).max(axis=0), atol=1e-6)
+
+
+@pytest.mark.parametrize("away", [0.0, 1e-9, 2e-6])
+def test_near_the_center_second_order_warns_and_estimates_are_not_too_low(second, away):
+    place = np.array([0.0, -away, 2e-4, 0.0])
+    found, full = warned_force(second, place, STILL, 300.0), FULL.force(place, STILL, 300.0)
+    told = second.estimate(place, 300.0)
+    if away:
+        assert np.hypot(*(found - full)[:2]) < 2.0 * told.force_error * np.hypot(*full[:2])
+    assert np.hypot(*(found - full)[2:]) < 1.2 * told.moment_error * np.hypot(*full[2:])
+    steep, straight = (
+        held.jacobian([0.0, -2e-6, tilt, 0.0], STILL, 300.0) for held, tilt in ((FULL, 2e-4), (FULL, 0.0))
+    )
+    error = np.abs(steep - straight)[:2, :2].max() / np.abs(steep[:2, :2]).max()
+    assert error < 1.5 * second.estimate([0.0, -2e-6, 2e-4, 0.0], 300.0).stiffness_error
+    assert closed().estimate(place, 300.0).correction == pytest.approx(told.correction)
+
+
+def test_a_lightly_loaded_journal_finds_its_rest(second):
+    with pytest.warns(rf.ValidityWarning):
+        rest = rf.equilibrium(second, [0.0, -50.0, 5.0, 0.0], 300.0)
+    full = rf.equilibrium(FULL, [0.0, -50.0, 5.0, 0.0], 300.0)
+    assert_allclose(rest.position[[0, 3]], full.position[[0, 3]], rtol=0.3)
+
+
+def test_places_and_profiles_that_are_none_are_refused(second):
+    for bad, message in (([0.0, 1e-5], "shape"), ([0.0, math.nan, 0.0, 0.0], "position must be finite")):
+        with pytest.raises(InputError, match=message):
+            second.minimum_film(bad)
+        with pytest.raises(InputError, match=message):
+            FULL.estimate(bad, 300.0)
+    for bad in (math.nan, "fast", [300.0]):
+        with pytest.raises(InputError, match="speed must be a single finite number"):
+            FULL.estimate(AT, bad)
+    assert second.estimate(AT, 0.0) == pytest.approx(second.estimate(AT, 300.0))
+    with pytest.raises(InputError, match="profile must have shape"):
+        MomentCarryingJournal(bearing=GRID, profile=[[1e-5, 0.0]])
+    depths = np.array([1e-5, 0.0, 1e-5])
+    assert hash(MomentCarryingJournal(bearing=GRID, profile=depths)) == hash(
+        MomentCarryingJournal(bearing=GRID, profile=tuple(depths.tolist()))
+    )
+    with pytest.raises(InputError, match=r"got PressureDamBearing$"):
+        MomentCarryingJournal(bearing=DAM)
 
 
 EASED = mobility_of(lambda H: (1.0 / (1.0 + H), 1.0 / (1.0 + H), 1.0, 1.0 + H))
