@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, field, replace
@@ -36,8 +36,8 @@ from ..core.port import (
     rest_place,
     rest_temperature,
 )
-from ..core.readable import Readable
-from ..core.results import Coefficients
+from ..core.readable import Item, Readable
+from ..core.results import Coefficients, by_freedom
 from ..core.signals import FREEDOMS, PLANAR
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure, hysteresis_matrices, untouched
@@ -91,6 +91,16 @@ class RotorEquilibrium(Readable):
     residual: float
     temperatures: dict[str, float] = field(default_factory=dict)
     work: dict[str, int] = field(default_factory=dict, compare=False)
+
+    def _entries(self, items: Iterator[Item]) -> Iterator[Item]:
+        """Yield items; the load on a bearing of other motions than x and y entry by entry, moments in N m."""
+        for item in items:
+            film = self.coefficients.get(item.name.removeprefix("loads_"))
+            if film is None or not item.name.startswith("loads_"):
+                yield item
+                continue
+            for one in by_freedom((item._replace(name="load"),), film.freedoms):
+                yield one._replace(name=one.name.replace("load", item.name, 1))
 
 
 @one_blas_thread

@@ -22,7 +22,7 @@ from . import instance as fmus
 from .layered import FOLDER, missing_references
 from .native.platforms import libraries, require_complete_file
 
-REFERENCE_TOLERANCE = 1e-8
+REFERENCE_TOLERANCE = 1e-7
 """Largest accepted deviation from the reference, relative to the largest value of each output."""
 
 DERIVATIVE_TOLERANCE = 1e-7

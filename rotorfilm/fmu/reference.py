@@ -85,7 +85,7 @@ def _compiled(model: MountedRotor, time: Array) -> Array | None:
     start = model.output(0.0, model.initial_state, np.zeros(0))
     speed = abs(float(start[names(model.outputs).index("speed")]))
     time = time * min(1.0, 2.0 * np.pi / (speed * time[-1])) if speed else time
-    settings = {"duration": time[-1], "times": time, "rtol": 100.0 * TOLERANCE, "condensation": 0.0}
+    settings = {"duration": time[-1], "times": time, "rtol": TOLERANCE, "condensation": 0.0}
     with warnings.catch_warnings(action="ignore"):
         try:
             run = offered("simulate_rotor")(model, **settings)

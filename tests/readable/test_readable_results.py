@@ -574,3 +574,20 @@ def test_round_off_beside_a_large_entry_is_shown_as_zero():
         "2e-09",
         "-3e-09",
     ]
+
+
+def test_moments_on_bearings_of_a_rotor_are_in_newton_meters():
+    steel = rotorfilm.ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
+    elements = rotorfilm.ShaftElement(length=1.0, outer_diameter=0.05, material=steel).split(2)
+    ends = tuple(
+        rotorfilm.Station(node=2 * k, name=name, feels_tilt=True) for k, name in enumerate(("left", "right"))
+    )
+    spring = rotorfilm.LinearBearing(
+        stiffness=np.diag([1e7, 1e7, 1e3, 1e3]), freedoms=("x", "y", "tilt_x", "tilt_y")
+    )
+    rotor = rotorfilm.ShaftRotor(elements=elements, stations=ends, speed=100.0)
+    at = rotorfilm.rotor_equilibrium(rotor, {"left": spring, "right": spring}, 100.0)
+    rows = dict(at.to_rows())
+    assert rows["loads left y"].endswith(" N")
+    assert rows["loads left tilt x"].endswith(" N m")
+    assert read(rows["loads left tilt x"], "N.m") == pytest.approx(at.loads["left"][2], rel=1e-5)
