@@ -107,7 +107,7 @@ class PeriodicOrbit(Drawable):
         left_tilt_x [rad]; empty where bearings react to x and y only.
     state : ndarray, shape (n_states,)
         State of the whole rotor at t = 0.
-    multipliers : ndarray of complex, shape (n,)
+    multipliers : ndarray of complex, shape (n_multipliers,)
         Floquet multipliers, the largest first; for free whirl one of them is 1. Empty without `stability`.
         A shaft of more than 24 coordinates has those of motion that its lower modes make, other rotors
         have one for each state.

@@ -45,6 +45,7 @@ NO_RESULTS = {
             "MarchMotion",
             "Residual",
             "ModalFilms",
+            "WholeFilms",
             "CompiledRotor",
             "PortRotor",
             "DrivenRotor",
