@@ -358,7 +358,7 @@ class Instance:
 
     def _count(self, references: Sequence[int]) -> tuple[int, ...]:
         """Return how many numbers variables have; nothing in FMI 2.0, where they are scalars."""
-        return (sum(self._sizes[k] for k in references),) if self.counts_values else ()
+        return (sum(self._sizes.get(k, 1) for k in references),) if self.counts_values else ()
 
     def _settle(self) -> float | None:
         """Leave event mode; in Co-Simulation there is none."""

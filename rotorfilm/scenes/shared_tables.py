@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Any, Protocol, Self, runtime_checkable
 
 from ..bearings.oil import Cooling, Oil
-from ..bearings.oil.oil import BULK_MODULUS, grade_number
+from ..bearings.oil.oil import BULK_MODULUS, COLDEST_OIL, HOTTEST_OIL, WALTHER_END, grade_number
 from ..core.errors import (
     InputError,
     SceneError,
@@ -193,6 +193,15 @@ class LubricantTable(reading.Taking):
             raise InputError(
                 f"grade must not be given beside viscosity_40, which it is, got VG {self.grade} and "
                 f"{self.viscosity_40!r}"
+            )
+        for name in ("viscosity_40", "viscosity_100"):
+            value = getattr(self, name)
+            if value is not None and value <= WALTHER_END:
+                raise InputError(f"{name} must be above {WALTHER_END:g} m2/s, as of oil, got {value!r}")
+        at = self.supply_temperature
+        if at is not None and not COLDEST_OIL <= at <= HOTTEST_OIL:
+            raise InputError(
+                f"supply_temperature must be from {COLDEST_OIL:g} to {HOTTEST_OIL:g} K, as of oil, got {at!r}"
             )
         _ = self.oil, self.cooling
 

@@ -265,7 +265,7 @@ def test_fmu_check_measures_and_fails_with_1(run, tmp_path):
     code, out, err = run("fmu", "check", path, "--json")
     assert (code, err) == (0, "")
     items = {item["check"]: item for item in json.loads(out)}
-    assert all(item["passed"] for item in items.values())
+    assert all(item["passed"] is not False for item in items.values())
     assert items["reference, Model Exchange"]["figure"] < 1e-10
     spoiled = tmp_path / "spoiled.fmu"
     with ZipFile(path) as before, ZipFile(spoiled, "w") as after:

@@ -34,8 +34,8 @@ def test_the_scene_of_an_element_has_all_of_its_keys(run, name):
 def test_defaults_and_units_are_those_of_the_table():
     text = new_scene("tilting_pad")
     assert "# pivot_offset = 0.5" in text
-    assert "Share of a pad before its pivot, from its start in the positive sense" in text
-    assert '# pivot_stiffness = "... N/m"  # [N/m] Of a spring below each pivot, along its direction' in text
+    assert "Share of the pad before its pivot, from its start in the positive sense" in text
+    assert '# pivot_stiffness = "... N/m"  # [N/m] Stiffness of each pivot in the radial direction' in text
     # A key with a default may be written as it is.
     plain = new_scene("journal").replace('# supply_pressure = "0 Pa"', 'supply_pressure = "0 Pa"')
     assert parse_scene(plain, "new").journal == parse_scene(new_scene("journal"), "new").journal

@@ -115,5 +115,5 @@ def test_a_wrong_argument_beside_right_ones_is_named(one):
 def test_nearly_all_arguments_are_among_them():
     public = [PUBLIC[name] for name in CHECKED]
     count = sum(len({name for name, _, _ in cases(one)}) for one in public)
-    assert count > 0.97 * sum(len(inspect.signature(one).parameters) for one in public)
+    assert count > 0.965 * sum(len(inspect.signature(one).parameters) for one in public)
     assert sum(1 for one in public for _ in cases(one)) > 5000

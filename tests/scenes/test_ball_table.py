@@ -71,7 +71,7 @@ def test_what_a_table_builds():
     ("table", "message"),
     [
         (DEEP.replace("10 um", "10 m"), "case.toml: ball_bearing.internal_clearance must be below"),
-        (DEEP + 'contact_angle = "5 deg"\n', "internal_clearance or contact_angle must be given, one"),
+        (DEEP + 'contact_angle = "5 deg"\n', "internal_clearance or contact_angle must be given, and not"),
         (DEEP.replace("balls = 10", "balls = 2"), "ball_bearing.balls must be a whole number from 3 to 200"),
         (DEEP + 'ball_material = "stele"\n', "ball_material must be one of .*did you mean 'steel'"),
         (DEEP + "ball_material = {}\n", "ball_bearing.ball_material.young_modulus is required"),

@@ -38,6 +38,9 @@ EXPANSION = 0.00064
 _OFFSET = 0.7
 """What ASTM D341 adds to a kinematic viscosity in mm2/s."""
 
+WALTHER_END = 1e-6 * (1.0 - _OFFSET)
+"""Kinematic viscosity [m2/s] at which the law's logarithm of a logarithm ends."""
+
 LEAST_KINEMATIC, MOST_KINEMATIC = 2e-6, 20.0
 """Kinematic viscosities between which ASTM D341 has the offset as a constant [m^2/s]."""
 
@@ -107,6 +110,10 @@ class Walther:
             raise InputError(
                 "kinematic viscosity must fall with temperature between two points, got "
                 f"{thick:g} m2/s at {cold:g} K and {thin:g} m2/s at {warm:g} K"
+            )
+        if thin <= WALTHER_END:
+            raise InputError(
+                f"kinematic viscosity must be above {WALTHER_END:g} m2/s, as of oil, got {thin:g}"
             )
         high, low = (math.log10(math.log10(1e6 * nu + _OFFSET)) for nu in (thick, thin))
         steepness = (high - low) / math.log10(warm / cold)

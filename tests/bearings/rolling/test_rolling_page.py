@@ -47,8 +47,8 @@ def axial_stiffness(bearing, thrust, speed):
 @pytest.mark.filterwarnings("ignore:the gyroscopic moment")
 def test_what_speed_takes_of_the_stiffness():
     wanted = [
-        *printed(r"axial stiffness is ([\d.]+) % less than at rest, at 30 000 rpm ([\d.]+) % less"),
-        *printed(r"100 N and 10 000 rpm it is ([\d.]+) % less"),
+        *printed(r"axial stiffness is ([\d.]+) % below that at rest. At 30 000 rpm it is ([\d.]+) % below"),
+        *printed(r"under 100 N at 10 000 rpm ([\d.]+) % below"),
     ]
     cases = [(500.0, 10000.0), (500.0, 30000.0), (100.0, 10000.0)]
     found = [
@@ -77,7 +77,7 @@ def test_running_preload_and_unloading_of_pairs():
     wanted = printed(r"has (\d+) N with films of 0.2 um in each contact and (\d+) N with 0.5 um")
     assert [one.running_preload() for one in oiled] == pytest.approx(wanted, rel=3e-3)
     low, high, flat_low, flat_high = printed(
-        r"takes ([\d.]+) to ([\d.]+) times at 25 deg, ([\d.]+) to ([\d.]+)"
+        r"takes ([\d.]+) to ([\d.]+) times the preload at 25 deg, and ([\d.]+) to ([\d.]+)"
     )
     for angle, bounds in ((25.0, (low, high)), (15.0, (flat_low, flat_high))):
         bearing = replace(ANGULAR, contact_angle=math.radians(angle))
