@@ -46,7 +46,10 @@ def test_readme_is_short():
     assert len(TEXT.splitlines()) <= 150
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/start.md", "docs/own_bearing.md", "docs/recipes.md"])
+PAGES = ["README.md", *(f"docs/{name}.md" for name in ("own_bearing", "recipes", "start", "thrust", "tilt"))]
+
+
+@pytest.mark.parametrize("page", PAGES)
 def test_every_snippet_prints_its_number(page, tmp_path):
     shutil.copytree(ROOT / "examples", tmp_path / "examples")
     codes = snippets((ROOT / page).read_text(encoding="utf-8"))

@@ -58,6 +58,7 @@ def plain_rotor(answer: RotorAnswer) -> dict[str, Any]:
         "mass": answer.mass,
         "states": answer.states,
         "loads": to_plain(dict(answer.loads)),
+        "moments": to_plain(dict(answer.moments)),
         "residual": answer.residual,
         "critical_speeds": to_plain(list(answer.critical_speeds)),
         "threshold": to_plain(answer.threshold),

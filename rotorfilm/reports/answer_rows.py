@@ -41,12 +41,8 @@ def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
 
     found = answer.threshold
     rows = [("rotor", f"{answer.mass:.6g} kg, {answer.states} states")]
-    rows += [
-        (f"load on {name}", f"{np.hypot(*load):.6g} N")
-        if len(load) == 2
-        else (f"moment on {name}", f"{np.hypot(*load[-2:]):.6g} N m")
-        for name, load in answer.loads.items()
-    ]
+    rows += [(f"load on {name}", f"{np.hypot(*load):.6g} N") for name, load in answer.loads.items()]
+    rows += [(f"moment on {name}", f"{np.hypot(*one):.6g} N m") for name, one in answer.moments.items()]
     rows += [
         (
             "critical speed",

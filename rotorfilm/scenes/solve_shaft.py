@@ -44,7 +44,9 @@ class RotorAnswer(Drawable):
         Mass of shaft and disks.
     states : int
     loads : dict of str to ndarray, shape (2,) [N]
-        Static load on each bearing, at the first speed.
+        Static load, x and y, on each bearing that reacts across the shaft, at the first speed.
+    moments : dict of str to ndarray, shape (2,) [N m]
+        Static moment, about x and y, on each bearing that feels tilts, at that speed.
     residual : float [1]
         Largest imbalance of forces / weight there.
     critical_speeds : tuple of CriticalSpeed
@@ -69,6 +71,7 @@ class RotorAnswer(Drawable):
     mass: float
     states: int
     loads: Mapping[str, Array]
+    moments: Mapping[str, Array]
     residual: float
     critical_speeds: tuple[analysis.CriticalSpeed, ...]
     threshold: analysis.RotorThreshold
@@ -130,7 +133,8 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
         title=scene.title,
         mass=rotor.mass,
         states=len(rotor.states),
-        loads={name: load[:2] for name, load in at.loads.items()},
+        loads=_static_loads(at, ("x", "y")),
+        moments=_static_loads(at, ("tilt_x", "tilt_y")),
         residual=at.residual,
         critical_speeds=critical,
         threshold=threshold,
@@ -140,6 +144,12 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
         remarks=(*own, *(line for line in remarks if line not in own)),
         level_one=found,
     )
+
+
+def _static_loads(at: analysis.RotorEquilibrium, pair: tuple[str, str]) -> dict[str, Array]:
+    """Return the static loads of two freedoms, of the bearings that have both."""
+    has = {name: film.freedoms for name, film in at.coefficients.items() if {*pair} <= {*film.freedoms}}
+    return {name: at.loads[name][[felt.index(one) for one in pair]] for name, felt in has.items()}
 
 
 def campbell_columns(answer: RotorAnswer) -> dict[str, list[float | None]]:

@@ -213,11 +213,13 @@ class ThrustAnswer(Readable):
     model : str
         The film that answered.
     equilibrium : Equilibrium
-        Of z and both tilts; of an oil with the temperature in the balance of its heat.
+        Of z and both tilts; of an oil with the temperature of the film in the balance of its heat.
     coefficients : Coefficients
         Stiffness and damping over z and tilts at the frequency of the speed.
     losses : ThrustLosses
         Of both sides, if there are two.
+    leaving_temperature : float or None [K]
+        Temperature of the oil that leaves the pads, for which questions ask; None of a given viscosity.
     remarks : tuple of str
         What the physics of the film leaves out and should not.
     """
@@ -227,6 +229,7 @@ class ThrustAnswer(Readable):
     equilibrium: Equilibrium
     coefficients: Coefficients
     losses: ThrustLosses
+    leaving_temperature: float | None = None
     remarks: tuple[str, ...] = ()
 
 
@@ -358,6 +361,7 @@ def answer_thrust(scene: Scene, report: Report = silent) -> ThrustAnswer:
         equilibrium=rest.at,
         coefficients=rest.coefficients,
         losses=rest.losses,
+        leaving_temperature=rest.leaving_temperature if pads.is_warming else None,
         remarks=(
             *oil_remarks(scene.tables, scene.lubricant),
             *thrust_remarks(rest, scene.lubricant.properties),

@@ -11,6 +11,7 @@ import rotorfilm as rf
 from rotorfilm.bearings import ThrustBearing, TiltingThrustBearing, double_acting
 from rotorfilm.questions.thrust import GRIDS, QUANTITIES, ThrustQuestion
 from rotorfilm.questions.walk import all_models
+from rotorfilm.reports.answer_rows import rotor_rows
 from rotorfilm.scenes import parse_scene
 from rotorfilm.scenes.solve_shaft import amplitude_unit
 
@@ -173,6 +174,9 @@ def test_temperature_is_that_of_the_oil_that_leaves():
         losses.inflow * float(oil.volumetric_heat(cooling.supply_temperature))
     )
     assert answer.rungs[0].value == pytest.approx(cooling.supply_temperature + rise, rel=1e-9)
+    told = scene_of(TILTING, "cells = [32, 16]\n", LOAD, RUN, OIL, 'housing_conductance = "5 W/K"\n').solve()
+    assert told.leaving_temperature == pytest.approx(answer.rungs[0].value, rel=1e-9)
+    assert told.equilibrium.temperature == pytest.approx(at.temperature, rel=1e-9)
 
 
 def test_what_is_left_out_is_said():
@@ -219,6 +223,20 @@ def test_a_thrust_bearing_belongs_to_a_shaft_with_its_load():
     named = {"thrust_z": "m", "thrust_tilt_x": "rad", "thrust_housing_force_z": "N", "thrust_vz": "m/s"}
     named |= {"thrust_housing_moment_x": "N m", "thrust_tilt_rate_y": "rad/s"}
     assert {name: amplitude_unit(name) for name in named} == named
+
+
+def test_the_answer_of_a_shaft_tells_loads_across_it_and_moments_apart():
+    """On stiff supports the forces across the shaft are its weight; a collar has no load across."""
+    given = parse_scene(LOADED, "case.toml")
+    found = given.solve()
+    assert {*found.loads} == {"left", "right"}
+    assert sum(found.loads.values())[1] == pytest.approx(-9.80665 * found.mass, rel=1e-3)
+    rotor, bearings = given.shaft.build(), given.shaft.build_bearings()
+    at = rf.rotor_equilibrium(rotor, bearings, given.shaft.speeds.build()[0])
+    np.testing.assert_allclose(found.moments["thrust"], at.loads["thrust"][1:], rtol=1e-9)
+    rows = dict(rotor_rows(found))
+    assert float(rows["moment on thrust"].removesuffix(" N m")) > 10.0
+    assert "load on thrust" not in rows
 
 
 def test_shafts_say_what_they_do_not_take_with_a_thrust_bearing():

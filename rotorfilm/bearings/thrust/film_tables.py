@@ -17,6 +17,7 @@ import numpy as np
 
 from ...core.errors import InputError
 from ...core.model import Array
+from ...core.sources import source_digest
 from ...native.structs import constant
 from ..films.map_fit import periodic_quintic_coefficients, quintic_coefficients
 from ..films.map_table import StoredTable, cached_table, require_shapes, table_path
@@ -35,6 +36,9 @@ SMALL = 0.1
 
 RUPTURED = 1e-3
 """Potential over its largest on the table, in the units of its nodes, below which the grid answers."""
+
+TORN = 1e6
+"""Rate of opening, over film and speed, at which all of the film ruptures, also at steep steps."""
 
 GAPS, RISE = (-1.5, 3.5), 0.9
 """ln of the leading over the trailing gap of a pad, and part of the room that it rises outward."""
@@ -95,7 +99,19 @@ def film_table(pads: Any) -> ThrustFilmTable:
     )
     make = _pad_table if pads.tilts else _whole_table
     kept = table_path(
-        "thrust", (type(pads).__name__, shape, WHOLE_CELLS, PAD_CELLS, FILMS, TILT, RUPTURED, GAPS, RISE)
+        "thrust",
+        (
+            source_digest(type(pads).__module__),
+            type(pads).__name__,
+            shape,
+            WHOLE_CELLS,
+            PAD_CELLS,
+            FILMS,
+            TILT,
+            RUPTURED,
+            GAPS,
+            RISE,
+        ),
     )
     return cached_table(ThrustFilmTable, kept, lambda: make(shape))
 
@@ -126,17 +142,20 @@ def _whole_table(pads: Any) -> ThrustFilmTable:
     films = np.exp(np.linspace(low, high, cells_x + 1))
     angles = 2.0 * math.pi * np.arange(cells_y) / cells_y
     ratio = constant("RF_TABLE_RATIO")
-    fine = replace(pads, extrapolated=False)
-    halves = tuple(n // 2 for n in pads.cells)
-    grids = (fine, replace(fine, cells=halves)) if pads.extrapolated else (fine,)
-    kernels = [one.kernel for one in grids]
     count = 1 if pads.closed else pads.pads
+    kernel = (pads if pads.closed else replace(pads, pads=1)).kernel
+
+    def wrench(*u: float) -> Array:
+        return kernel.at(np.zeros(0), np.array(u), differentiated=False)[0].wrench
+
+    @lru_cache(maxsize=5)
+    def sheared(z: float, a: float, b: float) -> float:
+        """Return the torque at a speed of 1 that shear alone makes: a film torn open has no pressure."""
+        return -float(wrench(z, a, b, TORN * z, 0.0, 0.0, 1.0)[3])
 
     def potential(u: Array) -> float:
-        """Return J of one pad: less half of what its pressure flow dissipates."""
-        spent = [kernel.field(0, np.zeros(0), np.zeros(0), u)[1][1] for kernel in kernels]
-        best = spent[0] + (spent[0] - spent[1]) / 3.0 if len(spent) > 1 else spent[0]
-        return -0.5 * float(best)
+        """Return J of one pad: half the power of the film, less that of the shear."""
+        return 0.5 * (float(wrench(*u) @ u[3:]) + sheared(*u[:3].tolist()) * float(u[6]) ** 2)
 
     def node(z: float, angle: float) -> Iterator[float]:
         v, speed = z * math.sin(angle) / ratio, math.cos(angle)

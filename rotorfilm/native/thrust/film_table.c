@@ -10,6 +10,7 @@
 #define COLUMNS RF_SECTOR_COLUMNS
 #define ROWS RF_SECTOR_ROWS
 #define SHARE 0.05 /* of the potential that sources of tilt rates may add, to which their second order is used */
+#define RISING 0.25  /* rate at which a film opens over film and speed, to which its pads hardly rupture by it */
 #define OPENING 0.25 /* opening source of a corner, over the largest closing one, with which no pad was seen to rupture */
 
 /* Functions of a table and derivatives by its axes. */
@@ -94,6 +95,8 @@ int rf_whole_film(const rf_film_table *table, double viscosity, const double *q,
     const double z = q[0], a = q[1], b = q[2], X = RF_TABLE_RATIO * v[0] / z, s = rf_length(X, speed);
     const double x = z > 0.0 ? log(z) : -HUGE_VAL, tilt = a * a + b * b;
     if (!(x >= table->x0 && x <= table->x1) || !(tilt <= table->leading * table->leading * z * z) || !(s > 0.0))
+        return RF_OUTSIDE;
+    if (speed < 0.0 || v[0] > RISING * z * speed)
         return RF_OUTSIDE;
     const double angle = atan2(X, speed), c = speed / s, i = X / s, mu = viscosity;
     rf_functions at;

@@ -33,7 +33,8 @@ typedef struct rf_film_table {
 } rf_film_table;
 
 /* Force, moments and torque y[4] of all pads at q = (z, a, b), rates v and speed; unless NULL by[4][7] by q, v and speed.
-   RF_OUTSIDE, and nothing set, beyond the table, below its least f0, or where sources of tilt rates add too much to J. */
+   RF_OUTSIDE, and nothing set, beyond the table, below its least f0, where sources of tilt rates add too much to J, in
+   reversed rotation and where the film opens fast: partly ruptured pads have kinks, which splines have not. */
 int rf_whole_film(const rf_film_table *table, double viscosity, const double *q, const double *v, double speed, double *y,
                   double *by);
 

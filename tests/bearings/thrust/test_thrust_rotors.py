@@ -1,8 +1,6 @@
 """Thrust bearings under shafts: modes by hand, a run over time, and control systems."""
 
 import math
-import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -210,8 +208,3 @@ def test_a_machine_with_its_thrust_bearing_is_an_fmu(tmp_path):
     )
     for name in ("thrust_z", "thrust_force_z", "thrust_moment_x", "left_x"):
         assert own[name] == pytest.approx(wanted[name], rel=1e-6, abs=1e-9)
-
-
-def test_the_example_of_the_page_is_true():
-    page = (Path(__file__).parents[3] / "docs" / "thrust.md").read_text(encoding="utf-8")
-    exec(re.search(r"```python\n(.*?)```", page, re.DOTALL)[1], {})

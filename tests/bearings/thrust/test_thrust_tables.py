@@ -63,6 +63,17 @@ def test_force_of_fixed_pads_is_that_of_the_film():
     assert np.abs(shear).max() < 0.015  # that of this coarse grid, whose shear is a sum over its cells
 
 
+def test_extrapolated_pads_are_those_of_both_grids_also_where_half_the_cells_spread_otherwise():
+    known = replace(FIXED, cells=(16, 16), extrapolated=True)
+    found = replace(known, tabulated=True)
+    for film in (0.06, 0.3, 1.0):
+        for rate, speed in ((0.0, 1.0), (-0.1, 1.0), (-1.0, 0.0)):
+            at = [film, 0.0, 0.0], [rate * film, 0.0, 0.0], speed
+            assert found.force(*at)[0] == pytest.approx(known.force(*at)[0], rel=1e-6)
+        closing = [film, 0.0, 0.0], [-3.0 * film, 0.0, 0.0], 1.0
+        assert found.force(*closing)[0] == pytest.approx(known.force(*closing)[0], rel=0.01)
+
+
 @pytest.mark.parametrize(
     ("tilt", "force", "moment"), [(0.1, 6e-4, 0.015), (0.2, 4e-3, 0.06), (0.29, 0.02, 0.12)]
 )
@@ -99,6 +110,8 @@ def test_beyond_the_table_the_film_itself_answers():
         ([1.0, 0.0, 0.0], 0.3),  # pads that open, or turn the other way, rupture
         ([0.0, 0.0, 0.0], -1.0),
         ([0.0, 0.01, 0.02], -1.0),
+        ([-1.0, 0.0, 0.0], -1.0),
+        ([0.3, 0.0, 0.0], 1.0),
     ],
 )
 def test_where_the_second_order_fails_the_film_itself_answers(rates, speed):
