@@ -205,8 +205,9 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
     - `SECOND_ORDER`: second order in the tilt, from a map of the plain bearing, which is made in half a
       minute and kept. Its force has an error of 0.04 % at t = 0.2 and 0.7 % at t = 0.4, its moment 3 and
       11 %, at rest at eccentricity ratios from 0.3. It holds where |w1| is at most 1.5 |w|: not near the
-      center, nor where the tilt moves and the middle hardly does. There it warns, the force tends to the
-      aligned one, and the moment has an error of 10 to 40 %;
+      center, nor where the tilt moves and the middle hardly does. There it warns, and the force tends to the
+      aligned one. The moment has an error of 10 to 40 % near the center; where the tilt moves and the middle
+      hardly does, both can be wrong by their own size;
     - `FULL`: the two-dimensional film over the whole length, with about four times the unknowns of the
       aligned one on each line, in 1 ms on 96 x 8 cells.
 
@@ -435,7 +436,8 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
         if status == Status.OUTSIDE:
             warn_user(
                 "a tilt should at most take 60 % of the aligned least film and drive it 1.5 times as much as "
-                f"the displacement, within the maps of the film, got {at}: TiltLevel.FULL has no such limit"
+                f"the displacement, within the maps of the film, got {at}: force and moment may be wrong by "
+                "their own size. TiltLevel.FULL has no such limit"
             )
             return
         planar = state[:2], state[4:6], float(state[8])

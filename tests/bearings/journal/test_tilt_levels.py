@@ -283,6 +283,9 @@ def test_a_tilt_that_moves_in_a_slow_film_is_outside(second):
         found = warned_force(second, place, MOVING, speed)
         assert np.hypot(*found[:2]) < np.hypot(*full[:2])
         assert np.hypot(*found[2:]) == pytest.approx(np.hypot(*full[2:]), rel=0.25)
+    rising = MOVING + np.array([0.0, 1e-6, 0.0, 0.0])  # across what a rotation at these speeds drives
+    found, full = warned_force(second, place, rising, 0.0), FULL.force(place, rising, 0.0)
+    assert 0.5 < np.hypot(*(found - full)[2:]) / np.hypot(*full[2:]) < 1.0  # as the page says of the moment
     spin = 0.999 * 150.0 * np.array([4e-5, 0.0, 0.0, 0.0])  # nearly at half the speed of the shaft
     assert np.hypot(*warned_force(second, place, spin, 300.0)[:2]) < 277.0
     for held in (closed(), replace(closed(), level=TiltLevel.NONE)):
