@@ -85,6 +85,12 @@ def test_what_is_said_has_the_numbers_and_the_other_end_of_the_band():
     assert not any("Taylor vortices" in remark for remark in answer.remarks)
 
 
+def test_a_rise_of_temperature_that_no_oil_survives_is_said_first():
+    thick = quietly(lambda: scene('viscosity = "1.5 Pa s"\n').film_remarks)
+    assert thick[0].startswith("heat: oil does not survive a rise of 8259 K")
+    assert not any("survive" in remark for remark in quietly(lambda: scene().film_remarks))
+
+
 def test_a_film_that_is_asked_to_be_laminar_meets_no_tolerance_above_its_onset():
     further = QUESTION.format(quantity="power_loss", tolerance=5)
     laminar = quietly(scene(MU + 'turbulence = "none"', further=further).ask)

@@ -147,7 +147,7 @@ def test_a_large_bearing_of_one_temperature_is_that_of_the_note(name):
     assert_allclose(film.damping @ turned, bearing.force(at.position, [0.0, 0.0], SPEED), atol=1e-8 * 3e5)
 
 
-@pytest.mark.parametrize("name", ["ng_pan", "hirs", "band"])
+@pytest.mark.parametrize("name", ["ng_pan", "reichardt", "hirs", "band"])
 def test_a_large_bearing_in_the_balance_of_its_heat_is_that_of_the_note(name):
     bearing = rf.JournalBearing(**SIZE, oil=OIL, cooling=COOLING, turbulence=EFFECTS[name])
     at = rf.equilibrium(bearing, LOAD, SPEED)
