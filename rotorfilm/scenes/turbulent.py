@@ -76,7 +76,7 @@ def decided(table: Any, scene: Any) -> Any:
     if choice == NONE or not table.has_lubricant or (choice == AUTO and not _takes(table)):
         return table
     bearing = table.build()
-    if choice != AUTO:
+    if isinstance(choice, Turbulence):
         return replace(table, turbulence=on_oil(choice, bearing, scene))
     return replace(table, turbulence=turbulence_of(bearing, scene)) if is_above(bearing, scene) else table
 

@@ -219,7 +219,8 @@ def test_derivatives_by_speed_and_viscosity_are_those_of_differences(name):
 def test_a_laminar_film_above_its_onset_warns_and_a_turbulent_one_does_not():
     laminar = rf.JournalBearing(**SIZE, **GIVEN)
     with pytest.warns(
-        ValidityWarning, match=r"Reynolds number 921.3 .* turbulence=rotorfilm.bearings.Turbulence\(\) models"
+        ValidityWarning,
+        match=r"Reynolds number 921.3 .* turbulence=rotorfilm.bearings.Turbulence\(\), or that key",
     ):
         rf.equilibrium(laminar, LOAD, SPEED)
     with warnings.catch_warnings(action="error"):
