@@ -159,6 +159,11 @@ NO_RUNG = (
 )
 
 
+TURBULENT = (
+    "conservation of oil: in the estimate, by the laminar film; no model conserves that of a turbulent film"
+)
+
+
 def supply_of(table: JournalTable, bearing: JournalBearing) -> str | None:
     """Return why the oil of a bearing cannot be conserved, empty if it can; None without an opening."""
     if bearing.geometry.plain:
@@ -173,27 +178,34 @@ def supply_of(table: JournalTable, bearing: JournalBearing) -> str | None:
 def conserved_oil(scene: Scene, question: Any, films: Sequence[FilmCandidate], ladder: Ladder) -> Ladder:
     """Return a ladder by Reynolds rupture whose estimates count the conservation of the oil.
 
-    On them stand the rungs that conserve it, unless the scene names the film, or the question has none.
+    On them stand the rungs that conserve it, unless the scene names the film, or the question has none. The
+    estimates of turbulent films count the conservation of the laminar film's oil, which is not a bound.
     """
     table = scene.journal
     if table is None:
         return ladder
-    reason = supply_of(table, scene.journal_bearing)
+    bearing = scene.journal_bearing
+    is_turbulent = bearing.turbulence is not None
+    if is_turbulent:
+        bearing = replace(bearing, turbulence=None)
+    reason = supply_of(table, bearing)
     if reason is None:
         return ladder
     if reason:
         return replace(ladder, remarks=(*ladder.remarks, NOT_JUDGED.format(reason=reason)))
-    token, change = object(), question.conservation(scene.journal_bearing)
+    token, change = object(), question.conservation(bearing)
 
     def ruptured(rung: Rung) -> FunctionRung:
         def estimate(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
-            return with_change(rung.estimate(found, before, tolerance), found, change, question.distance)
+            about = with_change(rung.estimate(found, before, tolerance), found, change, question.distance)
+            return about._replace(bound=about.bound and not is_turbulent)
 
         return with_estimate(rung, estimate, token)
 
     rungs = tuple(ruptured(rung) for rung in ladder.rungs)
-    if not question.follows_oil:
-        return replace(ladder, rungs=rungs, remarks=(*ladder.remarks, NO_RUNG))
+    if is_turbulent or not question.follows_oil:
+        said = TURBULENT if is_turbulent else NO_RUNG
+        return replace(ladder, rungs=rungs, remarks=(*ladder.remarks, said))
     above = () if scene.film_is_given else conserved_rungs(scene, question)
     return replace(ladder, rungs=(*rungs, *above))
 

@@ -408,7 +408,7 @@ class WhirlQuestion(FilmQuestion):
         `rotorfilm.analysis.speed_events.secant_speed`.
     levels : tuple of FieldLevel
     rests, field_rests : float
-        Rests and field rests as of any question.
+        As of any question.
     """
 
     mass: float

@@ -75,7 +75,7 @@ class WarmSolution(NamedTuple):
     ----------
     level : HeatLevel or FieldLevel
     found : Found
-        Found of the rung on the film at its temperature.
+        What the rung found on the film at its temperature.
     rung : Rung or None
         That one.
     own : WarmRest or None

@@ -436,7 +436,7 @@ def damper_remarks(
     numbers = damper_numbers(damper, oil, mass, speed, eccentricity_ratio)
     ruptures = "damper_full" if isinstance(damper.extent, FullFilm) else "damper_ruptured"
     inertia = () if damper.has_inertia else ("damper_inertia",)
-    return messages(remarks_of(*inertia, "damper", ruptures), numbers)
+    return messages(remarks_of("hot", *inertia, "damper", ruptures), numbers)
 
 
 # What a question about a damper leaves open: which of several orbits, and what the films leave out.

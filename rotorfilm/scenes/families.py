@@ -173,7 +173,7 @@ def _remarks() -> dict[str, Any]:
 
 def isothermal(remarks: Iterable[Remark]) -> tuple[Remark, ...]:
     """Return remarks without those on the warming of a film, which one of an oil has in it."""
-    return tuple(remark for remark in remarks if remark.number not in ("thinning", "unknown"))
+    return tuple(remark for remark in remarks if remark.number not in ("thinning", "unknown", "warming"))
 
 
 def messages(remarks: Iterable[Remark], numbers: Mapping[str, float]) -> tuple[str, ...]:

@@ -366,7 +366,7 @@ def film_remarks(
 
     Of a bearing whose oil warms it is said of the film at its temperature, and heat is not left out.
     """
-    remarks = remarks_of("journal")
+    remarks = remarks_of("hot", "journal")
     film: Any = None
     if isinstance(bearing, JFOFilm):
         film, bearing = replace(bearing, cells=CONSERVED), bearing.bearing

@@ -254,7 +254,7 @@ def pad_remarks(bearing: AnyPads, oil: Lubricant, speed: float, load: tuple[floa
 
     Of films on an oil it is said at their temperature, and that they warm is not left out.
     """
-    common, own = isothermal(remarks_of("journal")), remarks_of("pads")
+    common, own = isothermal(remarks_of("journal")), remarks_of("hot", "pads")
     if bearing.oil is not None:
         own = isothermal(own)
         bearing = warmed(bearing, quick_pads(bearing), speed, load) if bearing.is_warming else bearing

@@ -409,4 +409,4 @@ def thrust_numbers(rest: ThrustRest, oil: Lubricant) -> dict[str, float]:
 
 def thrust_remarks(rest: ThrustRest, oil: Lubricant) -> tuple[str, ...]:
     """Return the neglected effects that matter, one line each."""
-    return messages(remarks_of("thrust"), thrust_numbers(rest, oil))
+    return messages(remarks_of("hot", "thrust"), thrust_numbers(rest, oil))

@@ -69,18 +69,27 @@ def decided(table: Any, scene: Any) -> Any:
     """Return the table of a bearing with its turbulence where that is "auto" and the film is turbulent.
 
     Above the onset, at the temperature of the laminar balance. A film that is named and not on a grid stays
-    laminar, and so does one that conserves its oil.
+    laminar, and so does one that conserves its oil. A turbulence that is named has the density of the scene's
+    oil.
     """
-    if getattr(table, "turbulence", NONE) != AUTO or not table.has_lubricant or not _takes(table):
+    choice = getattr(table, "turbulence", NONE)
+    if choice == NONE or not table.has_lubricant or (choice == AUTO and not _takes(table)):
         return table
     bearing = table.build()
+    if isinstance(choice, Turbulence):
+        return replace(table, turbulence=on_oil(choice, bearing, scene))
     return replace(table, turbulence=turbulence_of(bearing, scene)) if is_above(bearing, scene) else table
 
 
 def turbulence_of(bearing: Any, scene: Any) -> Turbulence:
     """Return the turbulence of a bearing above its onset, on its oil or on that of the scene."""
-    density = None if bearing.oil is not None else scene.lubricant.properties.density
-    return Turbulence(closure=QUADRATURE, density=density)
+    return on_oil(Turbulence(closure=QUADRATURE), bearing, scene)
+
+
+def on_oil(effect: Turbulence, bearing: Any, scene: Any) -> Turbulence:
+    """Return a turbulence with the density of the scene's oil, unless it or the bearing has its own."""
+    own = effect.density is not None or bearing.oil is not None
+    return effect if own else replace(effect, density=scene.lubricant.properties.density)
 
 
 def is_left_laminar(table: Any, scene: Any) -> bool:

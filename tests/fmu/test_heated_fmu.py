@@ -2,6 +2,7 @@
 
 import shutil
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import fmpy
@@ -20,7 +21,8 @@ from rotorfilm import (
     export_fmu,
     simulate,
 )
-from rotorfilm.bearings.journal import GroovedMapFilm, MapFilm
+from rotorfilm.bearings import Turbulence
+from rotorfilm.bearings.journal import GroovedMapFilm, MapFilm, ReynoldsFilm
 from rotorfilm.fmu import check_fmu
 from rotorfilm.native import FOLDER
 
@@ -153,3 +155,22 @@ def test_what_the_map_does_not_hold_for_is_refused(name, value, rule, tmp_path, 
     with pytest.raises(Exception, match="failed"):
         fmpy.simulate_fmu(str(path), start_values={f"film.{name}": value}, stop_time=0.1)
     assert rule in capsys.readouterr().out
+
+
+def test_a_turbulent_film_warms_in_an_fmu_through_pythonfmu(tmp_path):
+    """A density of 1e5 kg/m3 makes this small bearing turbulent."""
+    film = bearing(ReynoldsFilm(cells=(16, 4)))
+    running = replace(film, turbulence=Turbulence(density=1e5)).in_time()
+    assert running.native() is None
+    path = export_fmu(running, tmp_path / "warm.fmu", "2.0", start=START, stop_time=0.2, step_size=0.1)
+    told = fmpy.simulate_fmu(str(path), stop_time=0.2, step_size=0.1, output_interval=0.1)
+
+    def last(warming):
+        u = np.array(list(START.values()))
+        return solve_ivp(
+            lambda t, x: warming.derivative(t, x, u), (0.0, 0.2), warming.initial_state, rtol=1e-10
+        ).y[0, -1]
+
+    name = next(name for name in told.dtype.names if name.rpartition(".")[2] == "film_temperature")
+    assert told[name][-1] == pytest.approx(last(running), rel=1e-7)
+    assert last(running) > last(film.in_time()) + 0.5

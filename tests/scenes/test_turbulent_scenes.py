@@ -54,8 +54,13 @@ def test_auto_is_laminar_below_the_onset_and_the_quadrature_above_it():
 
 def test_closures_and_tables_are_read_and_others_refused():
     read = scene(MU + 'turbulence = { closure = "hirs", band = [1000, 3000] }').journal_bearing.turbulence
-    assert read == Turbulence(closure="hirs", band=(1000.0, 3000.0))
-    assert scene(MU + 'turbulence = "hirs"').journal_bearing.turbulence == Turbulence(closure="hirs")
+    assert read == Turbulence(closure="hirs", band=(1000.0, 3000.0), density=855.0)
+    named = scene(MU + 'turbulence = "hirs"').journal_bearing.turbulence
+    assert named == Turbulence(closure="hirs", density=855.0)
+    own = scene(MU + "turbulence = { density = 1000 }").journal_bearing.turbulence
+    assert own == Turbulence(density=1000.0)
+    further = 'viscosity_40 = "32 cSt"\nviscosity_100 = "5.36 cSt"\nsupply_temperature = "45 degC"\n'
+    assert scene('turbulence = "hirs"', further=further).journal_bearing.turbulence.density is None
     pads = '[lobed_journal]\npreset = "elliptical"\nradius = "250 mm"\nlength = "400 mm"\n'
     pads += 'pad_clearance = "0.7 mm"\nviscosity = "0.0156 Pa s"\n'
     rest = TURBINE.format(keys=MU, speed=3000)
@@ -80,6 +85,12 @@ def test_what_is_said_has_the_numbers_and_the_other_end_of_the_band():
     assert not any("Taylor vortices" in remark for remark in answer.remarks)
 
 
+def test_a_rise_of_temperature_that_no_oil_survives_is_said_first():
+    thick = quietly(lambda: scene('viscosity = "1.5 Pa s"\n').film_remarks)
+    assert thick[0].startswith("heat: oil does not survive a rise of 8259 K")
+    assert not any("survive" in remark for remark in quietly(lambda: scene().film_remarks))
+
+
 def test_a_film_that_is_asked_to_be_laminar_meets_no_tolerance_above_its_onset():
     further = QUESTION.format(quantity="power_loss", tolerance=5)
     laminar = quietly(scene(MU + 'turbulence = "none"', further=further).ask)
@@ -89,6 +100,22 @@ def test_a_film_that_is_asked_to_be_laminar_meets_no_tolerance_above_its_onset()
     assert "turbulent by reichardt" in own.within
     truth = abs(laminar.value / own.value - 1.0)
     assert 0.5 * truth < laminar.error_estimate < 2.0 * truth
+
+
+GROOVED = MU + 'grooves = [{{ center = "{center} deg", width = "25 deg" }}]\n'
+
+
+def test_estimates_of_turbulent_grooved_films_count_the_oil_that_a_laminar_one_conserves():
+    """A groove at the top changes little; one below a light journal leaves it half of its film."""
+    further = QUESTION.format(quantity="minimum_film", tolerance=20)
+    fed = quietly(scene(GROOVED.format(center=90), further=further).ask)
+    assert fed.met
+    assert "conservation of oil, " in fed.rungs[0].method
+    assert any("by the laminar film" in remark for remark in fed.remarks)
+    light = TURBINE.format(keys=GROOVED.format(center=300), speed=3000).replace("300 kN", "20 kN")
+    starved = quietly(parse_scene(light + further, "case.toml").ask)
+    assert not starved.met
+    assert starved.error_estimate > 0.5
 
 
 @pytest.mark.parametrize("quantity", ["eccentricity_ratio", "power_loss", "stiffness"])

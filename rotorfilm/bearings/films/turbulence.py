@@ -267,7 +267,8 @@ class Turbulence:
 
 def local_reynolds(bearing: Any, speed: float, thickness: Array, viscosity: Array) -> Array:
     """Return the Reynolds number of films of a thickness and a viscosity over those of a bearing [1]."""
-    whole = bearing.film_density * abs(speed) * bearing.radius * bearing.clearance / bearing.film_viscosity
+    density = bearing.turbulence.density or bearing.film_density
+    whole = density * abs(speed) * bearing.radius * bearing.clearance / bearing.film_viscosity
     return np.asarray(whole * thickness / viscosity)
 
 

@@ -78,7 +78,7 @@ class HeldWalls:
     Parameters
     ----------
     bush_temperature, journal_temperature : float [K]
-        Bush temperature and journal temperature at the bore, all round, and of the journal.
+        Temperatures of the bush at its bore, all around, and of the journal.
     """
 
     bush_temperature: float
@@ -257,12 +257,12 @@ class HeatSolution(NamedTuple):
     Attributes
     ----------
     oil : ndarray, shape (N, M, ...) [K]
-        Oil in openings that of the mixed oil.
+        Temperature of the oil; in openings that of the mixed oil.
     openings : ndarray, shape (openings,) [K]
-        Openings of that oil.
+        Temperature of the mixed oil of each opening.
     bush : ndarray, shape (N,), or None [K]
     journal : float or None [K]
-        Journal of the walls; None of those that take no heat.
+        Temperatures of the walls; None for walls that take no heat.
     heat : HeatAccount
     """
 

@@ -81,16 +81,19 @@ def full_stress_forces(
         Turbulent, of a stated temperature; its band counts for both.
     position : array_like, shape (2,) [m]
     speed : float [rad/s]
+        Of either sign, not 0.
     cells : (int, int)
         As of `ReynoldsFilm`.
 
     Raises
     ------
     InputError
-        If the bearing is laminar, or its pads tilt.
+        If the bearing is laminar or its pads tilt, or the speed is 0.
     """
     q, omega = require_pair("position", position), require_number("speed", speed)
     require_count("cells", cells[0], 16)
+    if omega == 0.0:
+        raise InputError(f"speed must not be 0 for a turbulent film, got {speed!r}")
     if bearing.turbulence is None or hasattr(bearing, "on_frozen"):
         raise InputError(f"bearing must be turbulent, with pads that do not tilt, got {bearing!r}")
     bearing.require_film(q)

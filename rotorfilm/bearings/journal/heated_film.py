@@ -456,7 +456,7 @@ class HeatedState(StaticFilm, Drawable):
     bush_temperature : ndarray, shape (N,), or None [K]
         Bush temperature at the bore; None for walls that take no heat.
     journal_temperature : float or None [K]
-        Journal temperature of the whole journal.
+        Temperature of the whole journal.
     maximum_temperature : float [K]
         Maximum temperature of the oil in the film.
     power_loss : float [W]
@@ -469,7 +469,7 @@ class HeatedState(StaticFilm, Drawable):
     film : FrozenFilm or FrozenJFOFilm
         The film at frozen temperature: a Reaction with exact derivatives.
     film_temperature : ndarray, shape of oil_temperature [K]
-        Film temperature at which the film has its viscosity; equal to that of the oil when the iteration has
+        Temperature at which the film has its viscosity; equal to that of the oil when the iteration has
         converged.
     rounds : int
         Number of alternating solutions of film and heat.

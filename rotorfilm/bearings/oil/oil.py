@@ -719,6 +719,6 @@ class LaminarFilm(FilmUnits):
             warn_user(
                 f"the film has Reynolds number {found.reynolds:.4g} and Taylor number {found.taylor:.3g} at "
                 f"{speed:.6g} rad/s and {density:.4g} kg/m3, beyond the Reynolds number {most:.4g} at which "
-                f"{begins}: a real film takes more power and gets warmer than this laminar one, and "
-                "turbulence=rotorfilm.bearings.Turbulence() models it"
+                f"{begins}: a real film takes more power and gets warmer than this laminar one. "
+                "The argument turbulence=rotorfilm.bearings.Turbulence(), or that key of a scene, models it"
             )

@@ -122,8 +122,9 @@ class PadBearing(WarmBearing):
         if self.turbulence is not None:
             from .pad_film import PadGridFilm, PadMapFilm
 
-            if isinstance(getattr(self, "film", None), PadMapFilm):
-                object.__setattr__(self, "film", PadGridFilm())
+            film = getattr(self, "film", None)
+            if isinstance(film, PadMapFilm):
+                object.__setattr__(self, "film", PadGridFilm(mobility=film.mobility))
         require_lubricant(self.viscosity, self.oil, self.temperature, self.cooling)
         self._require_clearance()
 

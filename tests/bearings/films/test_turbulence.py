@@ -11,7 +11,16 @@ from numpy.testing import assert_allclose
 import rotorfilm as rf
 from rotorfilm import Groove, InputError, ValidityWarning
 from rotorfilm.analysis import heated_equilibrium
-from rotorfilm.bearings import BushRing, PadGridFilm, Recess, RecessedPad, ReynoldsFilm, Turbulence
+from rotorfilm.bearings import (
+    BushRing,
+    PadGridFilm,
+    PadMapFilm,
+    Recess,
+    RecessedPad,
+    ReynoldsFilm,
+    Turbulence,
+    full_stress_forces,
+)
 from rotorfilm.bearings.films import turbulence
 from rotorfilm.bearings.films.mobility import mobility_of
 from rotorfilm.bearings.journal import ExtrapolatedFilm
@@ -138,7 +147,7 @@ def test_a_large_bearing_of_one_temperature_is_that_of_the_note(name):
     assert_allclose(film.damping @ turned, bearing.force(at.position, [0.0, 0.0], SPEED), atol=1e-8 * 3e5)
 
 
-@pytest.mark.parametrize("name", ["ng_pan", "hirs", "band"])
+@pytest.mark.parametrize("name", ["ng_pan", "reichardt", "hirs", "band"])
 def test_a_large_bearing_in_the_balance_of_its_heat_is_that_of_the_note(name):
     bearing = rf.JournalBearing(**SIZE, oil=OIL, cooling=COOLING, turbulence=EFFECTS[name])
     at = rf.equilibrium(bearing, LOAD, SPEED)
@@ -210,7 +219,8 @@ def test_derivatives_by_speed_and_viscosity_are_those_of_differences(name):
 def test_a_laminar_film_above_its_onset_warns_and_a_turbulent_one_does_not():
     laminar = rf.JournalBearing(**SIZE, **GIVEN)
     with pytest.warns(
-        ValidityWarning, match=r"Reynolds number 921.3 .* turbulence=rotorfilm.bearings.Turbulence\(\) models"
+        ValidityWarning,
+        match=r"Reynolds number 921.3 .* turbulence=rotorfilm.bearings.Turbulence\(\), or that key",
     ):
         rf.equilibrium(laminar, LOAD, SPEED)
     with warnings.catch_warnings(action="error"):
@@ -230,6 +240,11 @@ def test_impossible_turbulence_is_refused():
     film = ExtrapolatedFilm(film=ReynoldsFilm(mobility=own))
     with pytest.raises(InputError, match="no mobility of its own"):
         rf.JournalBearing(**SIZE, **GIVEN, turbulence=Turbulence(), film=film)
+    law = mobility_of(lambda H: (1.0, 1.0, 1.0, 1.0 + 0.1 * H))
+    lobes = rf.lobe_set("three_lobe", preload=0.3)
+    own_law = rf.LobedBearing(**PADS, lobes=lobes, turbulence=Turbulence(), film=PadMapFilm(mobility=law))
+    with pytest.raises(InputError, match="no mobility of its own"):
+        own_law.force(PLACE, VELOCITY, SPEED)
     with pytest.raises(InputError, match="mobility must be None"):
         rf.PressureDamBearing(**PADS, pads=(DAM,), turbulence=Turbulence(), mobility=own)
 
@@ -246,6 +261,23 @@ def test_limits_of_an_endless_and_of_a_short_film_are_closed_forms():
 
     assert_allclose(force(1000.0, cavitation=rf.FullFilm()), (0.0, -102.13), atol=5e-3 * 102.13)
     assert_allclose(force(0.01) / 1e-4, (-10.125, -15.787), rtol=5e-3)
+
+
+@pytest.mark.parametrize("density", [None, 1500.0])
+def test_fields_of_temperature_and_the_full_stress_have_the_density_of_the_effect(density):
+    effect = Turbulence(closure="reichardt", density=density)
+    fresh = rf.JournalBearing(**SIZE, oil=OIL, cooling=COOLING, turbulence=effect)
+    at_supply = fresh.at_temperature(COOLING.supply_temperature)
+    known = at_supply.force(PLACE, [0.0, 0.0], SPEED)
+    cold = rf.HeatedFilm(bearing=fresh, cells=(64, 8)).cold()
+    assert_allclose(cold.force(PLACE, [0.0, 0.0], SPEED), known, rtol=0.01)
+    assert_allclose(full_stress_forces(at_supply, PLACE, SPEED)[0], known, rtol=0.01)
+
+
+def test_the_full_stress_needs_a_speed():
+    bearing = rf.JournalBearing(**SIZE, **GIVEN, turbulence=Turbulence())
+    with pytest.raises(InputError, match="speed must not be 0 for a turbulent film"):
+        full_stress_forces(bearing, PLACE, 0.0)
 
 
 def heated(effect, walls=None, **further):
