@@ -281,7 +281,7 @@ class Instance:
         """Go to a time [s] and a state (Model Exchange)."""
         self.fmu.setTime(t)
         if len(states):
-            values = (c_double * len(states)).from_buffer_copy(np.asarray(states, dtype=float))
+            values = (c_double * len(states)).from_buffer_copy(np.asarray(states, dtype=float).tobytes())
             self.fmu.setContinuousStates(values, len(states))
 
     def states(self, count: int) -> Array:
