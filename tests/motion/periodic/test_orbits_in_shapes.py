@@ -74,3 +74,6 @@ def test_shafts_of_the_same_parts_share_their_matrices():
     slow, fast, other = (long_rotor(4, speed=w) for w in (1.0, 2.0, 1.0))
     assert slow.assembly is fast.assembly is other.assembly
     assert long_rotor(4, internal_damping=1e-6).assembly is not slow.assembly
+    weight = fast.structure.weight.copy()
+    slow.structure.weight[:] = 0.0
+    assert (fast.structure.weight == weight).all()
