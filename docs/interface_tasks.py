@@ -61,6 +61,7 @@ TASKS = {
     "Orbits": (
         "analysis.circular_orbits",
         "analysis.periodic_orbit",
+        "analysis.basins",
         "core.results.CircularOrbit",
     ),
     "Bearings fitted to measurements": ("identification",),

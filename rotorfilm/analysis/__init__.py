@@ -27,6 +27,7 @@ if TYPE_CHECKING:
         stress_stiffened as stress_stiffened,
         torsional_modes as torsional_modes,
     )
+    from .basins import BasinScan as BasinScan, basin_scan as basin_scan
     from .circular_orbits import (
         BistableMap,
         Fold,
@@ -93,12 +94,7 @@ if TYPE_CHECKING:
         linearize as linearize,
     )
     from .nonlinear_system import ModelSystem, to_nlsys as to_nlsys
-    from .periodic_orbit import (
-        BasinScan as BasinScan,
-        PeriodicOrbit as PeriodicOrbit,
-        basin_scan as basin_scan,
-        periodic_orbit as periodic_orbit,
-    )
+    from .periodic_orbit import PeriodicOrbit as PeriodicOrbit, periodic_orbit as periodic_orbit
     from .rotor_equilibrium import (
         RotorEquilibrium as RotorEquilibrium,
         rotor_equilibrium as rotor_equilibrium,

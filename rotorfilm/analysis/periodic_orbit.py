@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections import Counter
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, NamedTuple
 
@@ -13,39 +11,21 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy import sparse
 
-from ..core.errors import (
-    ContactError,
-    EquilibriumError,
-    InputError,
-    require_count,
-    require_positive,
-    require_vector,
-)
+from ..core.errors import EquilibriumError, InputError, require_count, require_positive
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.port import (
-    MOST_LEFT,
-    Bearings,
-    amplitude_ratio,
-    clearance_of,
-    freedoms_of,
-    static_force,
-    static_slopes,
-    takes_steps,
-)
-from ..core.readable import Drawable, Readable
+from ..core.port import MOST_LEFT, freedoms_of, takes_steps
+from ..core.readable import Drawable
 from ..core.results import Trajectory
 from ..core.signals import PLANAR
 from ..rotors import FlexibleRotor, MountedRotor, RigidRotor, mount
 from ..rotors.structure import MatrixRotor, Structure, freedom_rows, station_name
-from .coefficients import film_coefficients
-from .compiled_march import LONGEST_TURN, March, ModalArrays
-from .compiled_rotor import Complex, ModalRotor, Parts, journal_rows, modal_rotor, modes, take_apart
+from .compiled_march import ModalArrays
+from .compiled_rotor import Complex, ModalRotor, journal_rows, modal_rotor, modes, take_apart
 from .equilibrium import equilibrium
 from .harmonic_balance import (
     CONVERGED,
     Balance,
-    JournalPairs,
     ModalFilms,
     PeriodicRotor,
     Receptance,
@@ -55,7 +35,6 @@ from .harmonic_balance import (
     driven,
     end_of,
     film_forces,
-    first_wave,
     lengthened,
     resized,
     series_rows,
@@ -66,8 +45,7 @@ from .harmonic_balance import (
 )
 from .modal_reduction import FEW, MARGIN, BandedMotion, Condensed, models
 from .port_orbits import PortRotor, carried_over, step_phases
-from .rotor_equilibrium import RotorEquilibrium, rotor_equilibrium
-from .rotor_matrices import second_order, with_hysteresis
+from .rotor_equilibrium import rotor_equilibrium
 from .threads import one_blas_thread
 
 HARMONICS = 8
@@ -81,6 +59,9 @@ WHOLE = 3
 
 ABOVE = 4.0
 """Frequency to which shapes are kept / that of the level before; at first it is that of `HARMONICS`."""
+
+ROUND_OFF = 1e-6
+"""Part of the damping of a bearing, over an orbit, below which it does not count."""
 
 BALANCED = 1e-3
 """Where the search for an orbit ends, in tolerances."""
@@ -109,8 +90,8 @@ class PeriodicOrbit(Drawable):
         State of the whole rotor at t = 0.
     multipliers : ndarray of complex, shape (n_multipliers,)
         Floquet multipliers, the largest first; for free whirl one of them is 1. Empty without `stability`.
-        A shaft of more than 24 coordinates has those of motion that its lower modes make, other rotors
-        have one for each state.
+        A shaft of more than 24 coordinates has those of motion that its lower modes make, where all its
+        bearings damp faster motion; other rotors have one for each state.
     residual : float [1]
         Remaining imbalance of the equations / clearance, in all coordinates of the rotor.
     truncation : float [1]
@@ -379,17 +360,39 @@ class CompiledRotor(ModalFilms):
         return WholeFilms(self.modal, self.model.whole).state(series, frequency, periods)
 
     def neglected(self, balance: Balance[Any], series: Array, frequency: float) -> float:
-        """Return the imbalance of an orbit by the shapes that were left out, in clearances."""
+        """Return the imbalance of an orbit by the shapes that were left out, in clearances.
+
+        It is infinite where a bearing may drive motions faster than those whose multipliers are known.
+        """
         if self.model is None:
             return 0.0
+        if self._drives_fast_motions(series, frequency):
+            return math.inf
         whole = balance._replace(rotor=WholeFilms(self.modal, self.model.whole))
         return float(np.abs(whole.values(series, frequency)).max())
 
     def multipliers(self, series: Array, frequency: float) -> Complex:
         """Return the Floquet multipliers of an orbit, the largest first."""
+        return multipliers(self.modal, series, frequency, self._known_to)
+
+    @property
+    def _known_to(self) -> float:
+        """Frequency of modes up to which multipliers are known [rad/s]."""
         space = None if self.model is None else self.model.space
-        known_to = math.inf if space is None else space.cut / MARGIN**2
-        return multipliers(self.modal, series, frequency, known_to)
+        return math.inf if space is None else space.cut / MARGIN**2
+
+    def _drives_fast_motions(self, series: Array, frequency: float) -> bool:
+        """Return whether a bearing, on its mean slopes over an orbit, may feed motions of high frequency w.
+
+        From u exp(i w t) it takes the power w^2 u* H u / 2, with H = (C + C^T) / 2 - i (K - K^T) / (2 w).
+        """
+        at = basis(series.shape[1] // 2, 2 * series.shape[1] + 6)
+        _, stiffness, damping = self.tangents(series @ at.values.T, frequency * (series @ at.slopes.T))
+        K, C = (-part.mean(axis=-1).reshape(-1, 2, 2) for part in (stiffness, damping))
+        C = C + self.modal.damper.reshape(-1, 2, 1) * np.eye(2)
+        cross = (K - K.swapaxes(1, 2)) * (-0.5j / self._known_to)
+        taken = np.linalg.eigvalsh(0.5 * (C + C.swapaxes(1, 2)) + cross)
+        return bool(np.any(taken[:, 0] < -ROUND_OFF * np.abs(taken).max(axis=1)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -624,387 +627,3 @@ def first_guess(mounted: MountedRotor, modal: ModalRotor) -> Array:
         return np.asarray(parts.rows @ rotor_equilibrium(rotor, bearings, parts.speed).displacement)
     assert isinstance(rotor, RigidRotor)
     return np.asarray(equilibrium(parts.bearings[0], rotor.static_load, parts.speed).position)
-
-
-# A rotor that turns once per orbit, as its journals feel it: any bearings, and a shaft of any kind.
-#
-# With K0 and C0, the films' stiffness and damping at rest, and the displacements p of all journals,
-#
-#     p = R * (F(p, p') + K0 p + C0 p') + e,
-#
-# where R answers each harmonic by the dynamic stiffness of shaft, K0 and C0 together, and e answers weight
-# and unbalance. What stands in the brackets varies over a turn only as far as the films are not linear.
-
-
-class RotorAnswers(NamedTuple):
-    """What a rotor on K0 and C0 answers over a turn.
-
-    Attributes
-    ----------
-    stations : tuple of str
-    speed : float [rad/s]
-        Signed.
-    journals : ndarray of complex, shape (H + 1, 2 m, 2 m)
-        Displacement of the m journals per force on them.
-    external : ndarray of complex, shape (2, 2 m)
-        The same under weight, and under the unbalance in the first harmonic.
-    probes : dict of str to (ndarray, ndarray), shapes (2, 2 m) and (2,)
-        Displacement of each probe in the first harmonic per force on the journals, and under the unbalance.
-    stiffness, damping : ndarray, shape (m, 2, 2)
-        K0 and C0 of each bearing.
-    """
-
-    stations: tuple[str, ...]
-    speed: float
-    journals: Complex
-    external: Complex
-    probes: dict[str, tuple[Complex, Complex]]
-    stiffness: Array
-    damping: Array
-
-    @property
-    def harmonics(self) -> int:
-        """Those that are known."""
-        return len(self.journals) - 1
-
-    @property
-    def samples(self) -> int:
-        """Samples over a turn that these harmonics stand for."""
-        return 2 * self.harmonics + 1
-
-    def on(self, bearings: Bearings, sloped: Bearings | None = None) -> Balance[DrivenRotor]:
-        """Return the equations of the orbit on these bearings, their slopes those of others where given."""
-        rotor = DrivenRotor(self, bearings, bearings if sloped is None else sloped)
-        return Balance(rotor=rotor, harmonics=self.harmonics, periods=1, collocated=True)
-
-    def linear_orbit(self, rest: Array) -> Array:
-        """Return the orbit about a rest (2 m,) [m] by K0 and C0 alone."""
-        return with_wave(rest, self.external[1], self.harmonics)
-
-    def on_springs(self, wave: Complex) -> Complex:
-        """Return K0 + i w C0 times first harmonics (2 m, ...) of the displacements."""
-        springs = self.stiffness + 1j * abs(self.speed) * self.damping
-        pairs = wave.reshape(len(springs), 2, -1)
-        return np.asarray((springs @ pairs).reshape(wave.shape))
-
-    def excess(self, orbit: Array) -> Complex:
-        """Return the first harmonic (2 m,) [N] of F + K0 p + C0 p' that an orbit needs."""
-        return np.asarray(np.linalg.solve(self.journals[1], first_wave(orbit) - self.external[1]))
-
-    def film_wave(self, orbit: Array) -> Complex:
-        """Return the first harmonic (2 m,) [N] of the forces on the journals that an orbit needs."""
-        return self.excess(orbit) - self.on_springs(first_wave(orbit))
-
-
-def rotor_answers(
-    structure: Structure, at: RotorEquilibrium, probes: Sequence[str], samples: int
-) -> RotorAnswers:
-    """Return what a rotor answers about an equilibrium, at the harmonics of an odd number of samples."""
-    speed, rows = at.speed, structure.journals
-    system, turn = second_order(structure, at), abs(at.speed)
-    # (cos, sin) of the angle are the real parts of (1, -i) exp(i w t); turning backward mirrors it.
-    turning = speed**2 * structure.unbalance @ np.array([1.0, -1.0j * np.sign(speed)])
-    answers, external, seen = [], np.zeros((2, len(rows)), dtype=complex), {}
-    own = {signal.name: row[: len(structure.weight)] for signal, row in structure.readouts}
-    for k in range(samples // 2 + 1):
-        whole = with_hysteresis(structure, system, k * turn, speed).dynamic_stiffness(k * turn)
-        load = structure.weight if k == 0 else turning
-        moved = np.linalg.solve(whole, np.column_stack([rows.T, load]) if k < 2 else rows.T)
-        answers.append(rows @ moved[:, : len(rows)])
-        if k < 2:
-            # Weight is in balance with the films at rest, to which K0 adds its own.
-            external[k] = rows @ moved[:, -1]
-        if k == 1:
-            for name in probes:
-                pair = np.array([own[f"{name}_x"], own[f"{name}_y"]]) @ moved
-                seen[name] = pair[:, :-1], pair[:, -1]
-    films = [at.coefficients[name] for name in structure.stations]
-    return RotorAnswers(
-        stations=structure.stations,
-        speed=speed,
-        journals=np.array(answers),
-        external=external,
-        probes=seen,
-        stiffness=np.array([film.stiffness for film in films]),
-        damping=np.array([film.damping for film in films]),
-    )
-
-
-@dataclass(frozen=True)
-class DrivenRotor(JournalPairs):
-    """A rotor on its bearings as the equations of a driven orbit see it.
-
-    Attributes
-    ----------
-    answers : RotorAnswers
-        Answers of the rotor.
-    bearings, sloped : mapping of str to Any
-        By station: whose forces, and whose slopes.
-    """
-
-    answers: RotorAnswers
-    bearings: Bearings
-    sloped: Bearings
-
-    @property
-    def clearances(self) -> Array:
-        """Of the bearings, shape (n_bearings,) [m]; infinite where there is none."""
-        return np.array([clearance_of(self.bearings[name]) for name in self.answers.stations])
-
-    @property
-    def speed(self) -> float:
-        """Angular speed of the shaft [rad/s]."""
-        return self.answers.speed
-
-    def receptance(self, harmonics: int, frequency: float) -> Receptance:
-        """Return what the journals answer at the frequency of the shaft."""
-        return self.answers.journals, None
-
-    def external(self, harmonics: int, periods: int, frequency: float) -> Array:
-        """Return the series of the answer to weight and unbalance."""
-        rest, wave = self.answers.external
-        return with_wave(rest.real, wave, harmonics)
-
-    def forces(self, position: Array, velocity: Array) -> Array:
-        """Return the forces of the bearings, those of K0 and C0 added."""
-        forces = [
-            static_force(self.bearings[name], *motion) for name, motion in self._motions(position, velocity)
-        ]
-        stiffness, damping = self.answers.stiffness, self.answers.damping
-        springs = stiffness @ _by_bearing(position) + damping @ _by_bearing(velocity)
-        return np.concatenate(forces) + springs.reshape(position.shape)
-
-    def tangents(self, position: Array, velocity: Array) -> tuple[Array, Array, Array]:
-        """Return the forces and their slopes."""
-        slopes = np.concatenate(
-            [static_slopes(self.sloped[name], *motion) for name, motion in self._motions(position, velocity)]
-        )
-        stiffness, damping = (
-            part.reshape(-1, 2, 1) for part in (self.answers.stiffness, self.answers.damping)
-        )
-        force = self.forces(position, velocity)
-        return force, slopes[:, :2] + stiffness, slopes[:, 2:4] + damping
-
-    def _motions(self, position: Array, velocity: Array) -> list[tuple[str, tuple[Array, Array, Array]]]:
-        """Return position, velocity and speed of each journal, by station."""
-        speeds = np.full(position.shape[1], self.speed)
-        pairs = zip(self.answers.stations, _by_bearing(position), _by_bearing(velocity), strict=True)
-        return [(name, (p, v, speeds)) for name, p, v in pairs]
-
-    def loaded(self, part: float) -> DrivenRotor:
-        """Return the same under a part of the unbalance."""
-        external = self.answers.external * np.array([[1.0], [part]])
-        return replace(self, answers=self.answers._replace(external=external))
-
-
-def rest_position(at: RotorEquilibrium, stations: Sequence[str]) -> Array:
-    """Return the positions of the journals at rest, shape (2 m,) [m]."""
-    return np.concatenate([at.coefficients[name].position for name in stations])
-
-
-def rest_on_film(rotor: RigidRotor, bearing: Any) -> RotorEquilibrium:
-    """Return where a rigid rotor at constant speed rests in its bearing, with stiffness and damping there."""
-    speed, load = rotor.profile.speeds[0], rotor.static_load
-    at = equilibrium(bearing, load, speed)
-    return RotorEquilibrium(
-        speed=speed,
-        coefficients={"": film_coefficients(bearing, at.position, speed)},
-        loads={"": load},
-        displacement=at.position,
-        residual=at.residual,
-    )
-
-
-def distance(balance: Balance[DrivenRotor], others: Bearings, orbit: Array) -> Array:
-    """Return how much the forces of other bearings than its own change an orbit [m], to first order."""
-    rotor = balance.rotor
-    other = rotor.answers.on(others, sloped=rotor.sloped).residual(orbit, balance.frequency)
-    missing = other.values - balance.values(orbit, balance.frequency)
-    return balance.in_length(np.asarray(np.linalg.solve(other.by_series, -missing)))
-
-
-def propagated(balance: Balance[DrivenRotor], orbit: Array, own: Bearings | None) -> tuple[Array, Array]:
-    """Return the change of an orbit that makes up for what it lacks, by two slopes.
-
-    The slopes of the balance's own, and those of other bearings along the orbit, or K0 and C0 where none are
-    given.
-    """
-    at = balance.residual(orbit, balance.frequency)
-    step = np.asarray(np.linalg.solve(at.by_series, -at.values))
-    other = -at.values
-    if own is not None:
-        slopes = balance.rotor.answers.on(own).residual(orbit, balance.frequency).by_series
-        other = np.asarray(np.linalg.solve(slopes, -at.values))
-    return balance.in_length(step), balance.in_length(other)
-
-
-def orbit_amplitude_ratio(orbit: Array, stations: Sequence[str], bearings: Bearings) -> float:
-    """Return how far the journals go towards contact at the samples; see `amplitude_ratio`."""
-    position = orbit @ basis(orbit.shape[1] // 2, orbit.shape[1]).values.T
-    return max(
-        amplitude_ratio(bearings[name], position[2 * k : 2 * k + 2]) for k, name in enumerate(stations)
-    )
-
-
-def _by_bearing(rows: Array) -> Array:
-    """Return (2 m, n) as (m, 2, n)."""
-    return rows.reshape(-1, 2, rows.shape[1])
-
-
-# Which initial offsets of a rotor at rest decay, and which end in whirl.
-
-
-BLOCK = 10
-"""Turns between two looks at the amplitude."""
-
-SAMPLES = 200
-"""Samples of a block."""
-
-SETTLED = 0.01
-"""Amplitude, in that of the offset, below which a stable rest is taken to be reached."""
-
-STEADY = 1e-6
-"""Relative change of the amplitude from block to block at which whirl is taken to be steady."""
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class BasinScan(Readable):
-    """Basins of attraction: the long-term motion of a rotor from offsets of its journals.
-
-    Attributes
-    ----------
-    offsets : ndarray, shape (2, ...) [m]
-        Initial displacement of all journals from their rest.
-    amplitude : ndarray, shape (...) [1]
-        Largest distance of a journal from its rest / clearance over the last turns; nan where it hit
-        the wall.
-    whirls : ndarray of bool, shape (...)
-        Whether the rotor whirls in the end, or hit the wall.
-    eccentricity : ndarray, shape (...) [1]
-        Largest eccentricity ratio over the last turns.
-    rest : ndarray, shape (2 n_bearings,) [m]
-        Position of the journals at rest.
-    work : dict of str to int
-    """
-
-    offsets: Array
-    amplitude: Array
-    whirls: np.ndarray
-    eccentricity: Array
-    rest: Array
-    work: dict[str, int]
-
-
-@one_blas_thread
-@arguments
-def basin_scan(
-    mounted: MountedRotor, offsets: ArrayLike, *, turns: int = 400, rtol: float = 1e-6
-) -> BasinScan:
-    """Return which offsets from the equilibrium decay and which end in whirl.
-
-    The rotor starts without velocity. All journals start at the same displacement from their equilibrium,
-    with the shaft bent as little as possible.
-
-    Parameters
-    ----------
-    mounted : MountedRotor
-        Mounted rotor from `mount`, at constant speed, without unbalance.
-    offsets : array_like, shape (2, ...) [m]
-        Initial displacements from the equilibrium. Those that touch the wall count as whirl, with the
-        amplitude nan.
-    turns : int
-        Longest run in turns of the shaft; it ends sooner once it is decided.
-    rtol : float [1]
-        Rtol as in `simulate_rotor`.
-
-    Raises
-    ------
-    InputError
-        If an argument breaks its rule, or the rotor has an unbalance.
-    EquilibriumError
-        If there is no rest.
-    """
-    require_count("turns", turns)
-    require_positive("rtol", rtol)
-    grid = require_vector("offsets", offsets)
-    parts = take_apart(mounted)
-    if np.any(parts.structure.unbalance):
-        raise InputError("rotor must have no unbalance for a basin of whirl")
-    modal = modal_rotor(parts, parts.speed)
-    rest = rest_of(mounted, modal)
-    shapes = offset_shapes(parts)
-    state = _rest_state(modal, rest)
-    work: Counter[str] = Counter()
-    flat = grid.reshape(2, -1)
-    ends = np.array([_end(modal, rest, state, shapes @ offset, turns, rtol, work) for offset in flat.T])
-    amplitude, eccentricity, whirls = ends.reshape(*grid.shape[1:], 3).transpose(-1, *range(grid.ndim - 1))
-    return BasinScan(
-        offsets=grid,
-        amplitude=amplitude,
-        whirls=whirls > 0.0,
-        eccentricity=eccentricity,
-        rest=rest.position,
-        work=dict(work),
-    )
-
-
-def _end(
-    modal: ModalRotor, rest: Rest, state: Array, shape: Array, turns: int, rtol: float, work: Counter[str]
-) -> tuple[float, float, bool]:
-    """Return amplitude, eccentricity ratio and whether it whirls in the end, from one offset."""
-    start = state.copy()
-    start[: len(shape)] += shape
-    turn = 2.0 * np.pi / abs(modal.parts.speed)
-    march = March(
-        modal=modal,
-        state=modal.modal(start),
-        rtol=rtol,
-        longest=LONGEST_TURN * turn,
-        duration=turns * turn,
-    )
-    first = _amplitude(modal, rest, march.state[:, None].copy())[0]
-    before, amplitude, eccentricity = np.inf, first, 0.0
-    begin = 0.0
-    while begin < turns * turn * (1.0 - 1e-12):
-        stop = min(begin + BLOCK * turn, turns * turn)
-        try:
-            kept = march.to(stop, np.linspace(begin, stop, SAMPLES + 1)[1:])
-        except ContactError:
-            work.update(march.work)
-            return float("nan"), 1.0, True
-        amplitude, eccentricity = _amplitude(modal, rest, kept.T)
-        if amplitude < SETTLED * first or abs(amplitude - before) <= STEADY * amplitude:
-            break
-        before, begin = amplitude, stop
-    work.update(march.work)
-    return amplitude, eccentricity, amplitude > 0.5 * first or amplitude > 0.05
-
-
-def _amplitude(modal: ModalRotor, rest: Rest, kept: Complex) -> tuple[float, float]:
-    """Return the largest distance of a journal from its rest, and from its center, in clearances."""
-    motion = (modal.sense @ kept).real + modal.journal_rest[:, None]
-    position = motion.reshape(-1, 4, motion.shape[1])[:, :2]
-    lengths = modal.parts.lengths[:, None]
-    away = position - rest.position.reshape(-1, 2, 1)
-    return (
-        float((np.hypot(away[:, 0], away[:, 1]) / lengths).max()),
-        float((np.hypot(position[:, 0], position[:, 1]) / lengths).max()),
-    )
-
-
-def _rest_state(modal: ModalRotor, rest: Rest) -> Array:
-    """Return the state of the whole rotor at rest."""
-    none = np.zeros((len(rest.position), 1))
-    force = film_forces(modal, rest.position[:, None], none)[0][:, 0]
-    return modal.physical(-(modal.push[:, :-2] @ force) / modal.values)
-
-
-def offset_shapes(parts: Parts) -> Array:
-    """Return the displacement of the rotor per common offset of its journals, least bent, shape (N, 2)."""
-    stiffness, rows = parts.structure.stiffness, parts.rows
-    n, count = len(stiffness), len(rows)
-    size = float(np.abs(stiffness).max()) or 1.0
-    saddle = np.block([[stiffness / size, rows.T], [rows, np.zeros((count, count))]])
-    right = np.zeros((n + count, 2))
-    right[n:] = np.tile(np.eye(2), (count // 2, 1))
-    return np.asarray(np.linalg.lstsq(saddle, right, rcond=None)[0][:n])

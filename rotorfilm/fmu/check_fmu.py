@@ -21,8 +21,9 @@ from ..core.model import Array
 from . import instance as fmus
 from .layered import FOLDER, missing_references
 from .native.platforms import libraries, require_complete_file
+from .reference import TOLERANCE
 
-REFERENCE_TOLERANCE = 1e-7
+REFERENCE_TOLERANCE = 1e-8
 """Largest accepted deviation from the reference, relative to the largest value of each output."""
 
 DERIVATIVE_TOLERANCE = 1e-7
@@ -317,9 +318,6 @@ STEP_TOLERANCE = 1e-12
 
 SHORTER = 1e-3
 """Of a first step that leads where the model has no derivative, the part that is tried next."""
-
-TOLERANCE = 1e-11
-"""Local error of the integration in Model Exchange, relative to each state and its nominal value."""
 
 
 def replay_steps(description: Any, folder: str, table: Array) -> Array:

@@ -281,7 +281,8 @@ class Instance:
         """Go to a time [s] and a state (Model Exchange)."""
         self.fmu.setTime(t)
         if len(states):
-            self.fmu.setContinuousStates((c_double * len(states))(*states), len(states))
+            values = (c_double * len(states)).from_buffer_copy(np.asarray(states, dtype=float).tobytes())
+            self.fmu.setContinuousStates(values, len(states))
 
     def states(self, count: int) -> Array:
         """Return the state (Model Exchange)."""

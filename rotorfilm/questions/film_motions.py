@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ..analysis import RotorEquilibrium, coefficients, equal_steps, equilibrium
-from ..analysis.harmonic_balance import Complex, circles, driven, first_wave, resized, rms
-from ..analysis.periodic_orbit import (
+from ..analysis.driven_rotor import (
     RotorAnswers,
     orbit_amplitude_ratio,
     propagated,
@@ -20,6 +19,7 @@ from ..analysis.periodic_orbit import (
     rest_position,
     rotor_answers,
 )
+from ..analysis.harmonic_balance import Complex, circles, driven, first_wave, resized, rms
 from ..core.answers import (
     DISAGREEMENT,
     SAFETY,

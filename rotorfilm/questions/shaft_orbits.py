@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..analysis import RotorEquilibrium, rotor_equilibrium, simulate_rotor
-from ..analysis.harmonic_balance import driven, first_wave, newton_step, resized, rms
-from ..analysis.periodic_orbit import (
+from ..analysis.driven_rotor import (
     RotorAnswers,
     distance,
     orbit_amplitude_ratio,
     rest_position,
     rotor_answers,
 )
+from ..analysis.harmonic_balance import driven, first_wave, newton_step, resized, rms
 from ..analysis.speed_events import on_films
 from ..bearings.seal import AnnularSeal
 from ..core.answers import DISAGREEMENT, SAFETY, ErrorEstimate, Ladder, Rung, RungResult, Work, WorkUnit

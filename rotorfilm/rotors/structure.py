@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from copy import copy
 from dataclasses import replace
 from functools import cached_property
 from typing import Any, NamedTuple, TypeVar
@@ -103,8 +104,8 @@ class Structure(NamedTuple):
 
 
 def dense(structure: Structure) -> Structure:
-    """Return a structure whose matrices are no longer sparse."""
-    return Structure(*(dense_matrix(part) for part in structure))
+    """Return a structure whose matrices are no longer sparse; it shares no array with the other."""
+    return Structure(*(copy(dense_matrix(part)) for part in structure))
 
 
 class Operators(NamedTuple):

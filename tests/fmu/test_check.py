@@ -12,8 +12,9 @@ from zipfile import ZIP_DEFLATED, ZipFile
 import fmpy
 import pytest
 
-from rotorfilm import FmuError, JournalBearing, RigidRotor
+from rotorfilm import FmuError, JournalBearing, RigidRotor, equilibrium, mount
 from rotorfilm.bearings.journal import MapFilm, ShortFilm
+from rotorfilm.core.units import STANDARD_GRAVITY
 from rotorfilm.cosim import open_fmu
 from rotorfilm.fmu import check_fmu, describe_fmu, export_fmu
 from rotorfilm.fmu.archive import read_description
@@ -52,6 +53,15 @@ def test_a_good_fmu_passes_everything_that_applies(path):
     assert found["reference, Co-Simulation"].figure == 0.0
     adjoint = found["adjoint derivatives"]
     assert adjoint.passed is (None if describe_fmu(path)["fmi_version"] == "2.0" else True)
+
+
+def test_a_motion_that_is_small_beside_nominal_values_is_repeated(tmp_path):
+    """Velocities of 1e-5 m/s about the equilibrium, whose nominal value is a thousand times that."""
+    at = equilibrium(BEARING, (0.0, -50.0 * STANDARD_GRAVITY), 100.0)
+    rotor = RigidRotor(mass=50.0, speed=100.0, unbalance=5e-6, position=tuple(at.position))
+    found = outcomes(export_fmu(mount(rotor, {"": BEARING}), tmp_path / "rotor.fmu"))
+    assert found["reference, Co-Simulation"].passed
+    assert 0.0 < found["reference, Model Exchange"].figure < 1e-8
 
 
 def test_another_reference_is_noticed(path):

@@ -380,8 +380,9 @@ def test_a_state_that_is_not_finite_is_refused_by_its_value(unzipped, kind, refu
     rotor = unzipped(ROTOR).open(kind).start()
     save, restore = roundtrip(rotor)
     content, wrong = save(), struct.pack("<d", np.inf)
-    with refused(ERROR, "time of the FMU state must be finite, got inf"):
-        restore(sealed(content[:24] + wrong + content[32:]))
+    for place in (24, 40, 56):  # the time, the stride of the integration, the last step
+        with refused(ERROR, "times of the FMU state must be finite, got inf"):
+            restore(sealed(content[:place] + wrong + content[place + 8 :]))
     last = (len(content) - 104) // 8 - 1  # behind the header
     with refused(ERROR, f"value {last} of the FMU state must be finite, got inf"):
         restore(sealed(content[:-8] + wrong))

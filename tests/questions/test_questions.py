@@ -12,9 +12,9 @@ from families import FAMILIES
 
 from rotorfilm import InputError, ValidityWarning
 from rotorfilm.analysis import equilibrium
+from rotorfilm.analysis.driven_rotor import rest_on_film, rest_position, rotor_answers
 from rotorfilm.analysis.equal_steps import ORDER, linear_march, march, peak
 from rotorfilm.analysis.harmonic_balance import basis, constant, solve
-from rotorfilm.analysis.periodic_orbit import rest_on_film, rest_position, rotor_answers
 from rotorfilm.bearings.journal import ShortFilm
 from rotorfilm.questions import ladder_of, ladders_of
 from rotorfilm.questions.walk import NoAnswerError

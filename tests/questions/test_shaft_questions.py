@@ -21,7 +21,7 @@ from rotorfilm.analysis import (
     rotor_threshold,
     unbalance_response,
 )
-from rotorfilm.analysis.periodic_orbit import rest_position, rotor_answers
+from rotorfilm.analysis.driven_rotor import rest_position, rotor_answers
 from rotorfilm.analysis.speed_events import (
     CRITICAL,
     THRESHOLD,

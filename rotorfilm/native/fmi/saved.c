@@ -54,8 +54,10 @@ static rf_answer require_own(rf_instance *c, const void *bytes)
            && h.co_simulation == c->co_simulation;
     if (!own)
         return refuse(c);
-    if (!isfinite(h.now.time))
-        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "time of the FMU state must be finite, got %.9g", h.now.time);
+    const double times[] = {h.now.time, h.now.stride, h.now.step};
+    for (size_t i = 0; i < sizeof times / sizeof *times; ++i)
+        if (!isfinite(times[i]))
+            return rf_log(c, RF_ERROR, RF_LOG_ERROR, "times of the FMU state must be finite, got %.9g", times[i]);
     for (size_t i = 0; i < c->value_count; ++i) {
         memcpy(&value, (const char *)bytes + sizeof h + i * sizeof value, sizeof value);
         if (!isfinite(value))

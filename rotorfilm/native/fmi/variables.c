@@ -261,6 +261,8 @@ rf_answer rf_get_output_slopes(rf_instance *c, const unsigned *references, size_
     rf_message why;
     if (require(c, references, count, numbers, "output derivatives") != RF_FINE)
         return RF_ERROR;
+    if (!count)
+        return RF_FINE;
     rf_answer answer = refresh(c, RF_DERIVATIVE);
     answer = answer <= RF_WARNING ? derive(c) : answer;
     if (answer > RF_WARNING)

@@ -1,12 +1,14 @@
 """Orbits of shafts in few of their shapes against those of all coordinates."""
 
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rotorfilm import JournalBearing, Unbalance, mount, periodic_orbit
+from rotorfilm import JournalBearing, LinearBearing, Unbalance, mount, periodic_orbit
 from rotorfilm.analysis.modal_reduction import counted, models
+from rotorfilm.rotors import Station
 
 from ...linear.test_big_rotors import long_rotor
 
@@ -48,6 +50,18 @@ def test_more_shapes_are_taken_until_the_whole_shaft_is_in_balance(monkeypatch):
     assert found.position(times) / 1e-4 == pytest.approx(wanted.position(times) / 1e-4, abs=1e-7)
 
 
+def test_a_bearing_that_drives_fast_motions_makes_the_orbit_of_the_whole_shaft_unstable():
+    """The lower modes decay: damping that is negative drives those of high frequency first."""
+    rotor = mounted(6).bare
+    rotor = replace(rotor, stations=(*rotor.stations, Station(node=3, name="seal")))
+    bearings = {"left": BEARING, "right": BEARING, "seal": LinearBearing(stiffness=0.0, damping=-100.0)}
+    orbit = periodic_orbit(mount(rotor, bearings))
+    assert not orbit.stable
+    cross = LinearBearing(stiffness=((0.0, 5e4), (-5e4, 0.0)), damping=100.0)
+    calm = periodic_orbit(mount(rotor, bearings | {"seal": cross}))
+    assert len(calm.multipliers) < len(orbit.multipliers) == len(orbit.state)
+
+
 def test_the_work_of_an_orbit_does_not_grow_with_the_coordinates():
     """Each harmonic is solved once in all coordinates for its balance, and once for the state."""
     periodic_orbit(mounted(24))
@@ -60,3 +74,6 @@ def test_shafts_of_the_same_parts_share_their_matrices():
     slow, fast, other = (long_rotor(4, speed=w) for w in (1.0, 2.0, 1.0))
     assert slow.assembly is fast.assembly is other.assembly
     assert long_rotor(4, internal_damping=1e-6).assembly is not slow.assembly
+    weight = fast.structure.weight.copy()
+    slow.structure.weight[:] = 0.0
+    assert (fast.structure.weight == weight).all()
