@@ -202,13 +202,17 @@ def _damped_rotor(scene: Scene) -> tuple[Any, float, float]:
     return mount(models.rotor, {"": support}), models.step, scene.speed
 
 
+def system_speed(scene: Scene) -> float:
+    """Return the speed at which a flexible rotor is exported [rad/s]."""
+    return float(scene.shaft.speeds.first if scene.operation is None else scene.speed)
+
+
 def _shaft_system(scene: Scene, tolerance: float) -> tuple[Any, float, float]:
     """Return the flexible rotor of a scene at rest in its bearings, a step [s], and its speed."""
     from .solve_shaft import added_unbalance  # as above
 
-    speeds = scene.shaft.speeds
-    speed = speeds.first if scene.operation is None else scene.speed
-    highest = scene.shaft.highest_frequency or 2.0 * speeds.last
+    speed = system_speed(scene)
+    highest = scene.shaft.highest_frequency or 2.0 * scene.shaft.speeds.last
     whole = scene.shaft.build(speed=speed, extra=added_unbalance(scene))
     bearings = scene.shaft.build_bearings()
     reduced = reduce_rotor(whole, frequency=highest, tolerance=tolerance).rotor
@@ -300,12 +304,10 @@ def export_machine_fmu(
     rotor : ShaftRotor
     bearings : mapping of str to Reaction
         By station, one for each.
-    path, version, platforms, component, stop_time, step_size
+    path, version, frequency, tolerance, platforms, component
+        As in `export_rotor_fmu`.
+    stop_time, step_size : float [s]
         As in `export_fmu`.
-    frequency : float [rad/s]
-        Highest frequency of interest, as in `reduce_rotor`.
-    tolerance : float [1]
-        Largest error of the reduction.
 
     Returns
     -------
