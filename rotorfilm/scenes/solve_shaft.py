@@ -21,6 +21,7 @@ from ..core.model import Array
 from ..core.port import Reaction, freedoms_of
 from ..core.progress import Report, part_of, silent
 from ..core.readable import Drawable
+from ..core.signals import PLANAR
 from ..rotors import ShaftElement, ShaftRotor
 from .families import messages, prefixed, remarks_of
 from .journal_tables import film_remarks
@@ -44,7 +45,8 @@ class RotorAnswer(Drawable):
         Mass of shaft and disks.
     states : int
     loads : dict of str to ndarray, shape (2,) [N]
-        Static load on each bearing, at the first speed.
+        Static load on each bearing, at the first speed. On a thrust bearing it is force z [N] besides the
+        axial load, and the moments x, y [N m].
     residual : float [1]
         Largest imbalance of forces / weight there.
     critical_speeds : tuple of CriticalSpeed
@@ -130,7 +132,10 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
         title=scene.title,
         mass=rotor.mass,
         states=len(rotor.states),
-        loads={name: load[:2] for name, load in at.loads.items()},
+        loads={
+            name: load[:2] if at.coefficients[name].freedoms[:2] == PLANAR else load
+            for name, load in at.loads.items()
+        },
         residual=at.residual,
         critical_speeds=critical,
         threshold=threshold,

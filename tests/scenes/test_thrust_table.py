@@ -11,6 +11,7 @@ import rotorfilm as rf
 from rotorfilm.bearings import ThrustBearing, TiltingThrustBearing, double_acting
 from rotorfilm.questions.thrust import GRIDS, QUANTITIES, ThrustQuestion
 from rotorfilm.questions.walk import all_models
+from rotorfilm.reports.answer_rows import answer_rows
 from rotorfilm.scenes import parse_scene
 from rotorfilm.scenes.solve_shaft import amplitude_unit
 
@@ -216,6 +217,11 @@ def test_a_thrust_bearing_belongs_to_a_shaft_with_its_load():
     place = at.coefficients["thrust"].position
     x = pads.rest_state(place, 500.0)
     assert pads.output(0.0, x, [*place, 0.0, 0.0, 0.0, 500.0])[0] == pytest.approx(10e3, rel=1e-6)
+    answer = scene.solve()
+    assert {name: load.shape for name, load in answer.loads.items()} == {
+        "left": (2,), "right": (2,), "thrust": (3,)
+    }  # fmt: skip
+    assert dict(answer_rows(answer))["moment on thrust"] == f"{np.hypot(*answer.loads['thrust'][1:]):.6g} N m"
     named = {"thrust_z": "m", "thrust_tilt_x": "rad", "thrust_housing_force_z": "N", "thrust_vz": "m/s"}
     named |= {"thrust_housing_moment_x": "N m", "thrust_tilt_rate_y": "rad/s"}
     assert {name: amplitude_unit(name) for name in named} == named
