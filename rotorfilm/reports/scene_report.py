@@ -288,7 +288,7 @@ def _film(scene: Scene, answer: Answer) -> Iterator[Block]:
         yield charts.picture_of(state)
         yield charts.picture_of(state, "circumference")
     with suppress(RotorfilmError):  # not every bearing has an equilibrium at every speed
-        speeds = np.linspace(0.5, 1.5, 11) * speed
+        speeds = np.sort(np.linspace(0.5, 1.5, 11) * scene.speed)
         table = analysis.coefficient_table(bearing, scene.static_load, speeds)
         yield table.to_table()
         yield charts.picture_of(table)

@@ -286,11 +286,15 @@ def _study(
     if not np.isfinite(values[0]):
         raise AbsentError(f"{quantity} must have a value without deviations, got none{reason}")
     drawn = values[first:]
+    effects = {name: (float(values[1 + 2 * k]), float(values[2 + 2 * k])) for k, name in enumerate(draws)}
     failures = int(np.count_nonzero(~np.isfinite(drawn)))
     if failures == drawn.size:
         raise AbsentError(
             f"{quantity} must have a value in at least one sample, got none in {failures}{reason}"
         )
+    silent_ends = [name for name, ends in effects.items() if not np.isfinite(ends).all()]
+    if silent_ends:
+        warn_user(f"an end of the tolerance has no answer, of {', '.join(silent_ends)}{reason}")
     if failures:
         warn_user(f"{failures} of {drawn.size} samples have no answer, and are not in the histogram")
     return ToleranceStudy(
@@ -301,6 +305,6 @@ def _study(
         deviation=float(np.nanstd(drawn)),
         values=drawn,
         parameters={name: column[first:] for name, column in draws.items()},
-        effects={name: (float(values[1 + 2 * k]), float(values[2 + 2 * k])) for k, name in enumerate(draws)},
+        effects=effects,
         failures=failures,
     )

@@ -14,6 +14,7 @@ from rotorfilm.analysis import clearance_check, vibration_limit
 from rotorfilm.charts import CurveMark, FieldMark, Picture, PicturePanel
 from rotorfilm.cli.main import main
 from rotorfilm.core import AbsentError
+from rotorfilm.core.frames import ResultTable
 from rotorfilm.reports import Report, ReportSection, Verdict
 from rotorfilm.reports.page import SHOWN, thinned
 from rotorfilm.scenes.new_scene import new_scene
@@ -230,7 +231,10 @@ def test_a_study_of_tolerances_has_the_effects_and_the_scatter_of_a_linear_law()
 
 def test_samples_that_are_not_finite_are_failures():
     """A law that is infinite in the lower part of the range of its parameter."""
-    with pytest.warns(rf.ValidityWarning, match="samples have no answer"):
+    with (
+        pytest.warns(rf.ValidityWarning, match="samples have no answer"),
+        pytest.warns(rf.ValidityWarning, match="an end of the tolerance has no answer, of a"),
+    ):
         study = scatter_study(lambda a: 1.0 / (a - 1.0) if a > 1.0 else np.inf, {"a": 1.5}, {"a": 1.0})
     np.testing.assert_array_equal(np.isnan(study.values), study.parameters["a"] <= 1.0)
     assert study.failures == np.count_nonzero(study.parameters["a"] <= 1.0) > 0
@@ -311,6 +315,16 @@ def test_a_study_without_answers_says_why():
 
     with pytest.raises(AbsentError, match="got none: a is too large"):
         scatter_study(refuse, {"a": 1.0}, {"a": 0.5})
+
+
+@pytest.mark.parametrize("speed", ["1500 rpm", "-1500 rpm"])
+def test_coefficients_over_speed_are_those_of_the_sense_of_rotation(speed):
+    scene = rf.Scene.load(EXAMPLES / "short.toml", {"operation.speed": speed})
+    (part,) = [one for one in scene.report().sections if one.heading.startswith("Equilibrium")]
+    (table,) = [block for block in part.blocks if isinstance(block, ResultTable)]
+    columns = {one.name: np.asarray(one.values) for one in table.columns}
+    middle = np.argmin(np.abs(columns["speed"] - scene.speed))
+    assert columns["kxy"][middle] == pytest.approx(scene.solve().coefficients.stiffness[0, 1], rel=1e-6)
 
 
 @pytest.mark.skipif(BROWSER is None, reason="no headless browser")
