@@ -112,7 +112,8 @@ class Mount(NamedTuple):
         return static_linearization(static_slopes(self.reaction, at[:2], at[2:4], at[4]))
 
 
-class UnbalancePlane(NamedTuple):
+@dataclass(frozen=True, kw_only=True)
+class UnbalancePlane:
     """An unbalance that is a parameter of the compiled system.
 
     Attributes

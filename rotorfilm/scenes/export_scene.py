@@ -296,8 +296,9 @@ def export_machine_fmu(
 
     Outputs are the motions of its bearings and probes by their names, and the forces of the bearings.
     Parameters are `constant_speed` [rad/s], fixed, and of each plane with an `Unbalance`, by its node k,
-    `plane_k_unbalance` [kg m] and `plane_k_unbalance_angle` [rad], tunable where the FMU is compiled; an
-    unbalance of 0 makes a plane too. Inputs are forces in the planes, `plane_k_force_x` and _y [N].
+    `plane_k_unbalance` [kg m] and `plane_k_unbalance_angle` [rad], tunable; an unbalance of 0 makes a plane
+    too. An FMU that is not compiled has no parameters, and the unbalances of the rotor. Inputs are forces in
+    the planes, `plane_k_force_x` and _y [N]. A plane is at a node without a bearing.
 
     Parameters
     ----------
@@ -328,7 +329,9 @@ def export_machine_fmu(
         phasor = one.unbalance * np.exp(1j * one.unbalance_angle)
         sums[one.node] = sums.get(one.node, 0.0) + phasor
     planes = tuple(
-        UnbalancePlane(f"plane_{node}", float(abs(sum_)), float(np.angle(sum_)))
+        UnbalancePlane(
+            station=f"plane_{node}", unbalance=float(abs(sum_)), unbalance_angle=float(np.angle(sum_))
+        )
         for node, sum_ in sums.items()
     )
     further = (Station(node=node, name=plane.station) for node, plane in zip(sums, planes, strict=True))
