@@ -112,8 +112,7 @@ class Mount(NamedTuple):
         return static_linearization(static_slopes(self.reaction, at[:2], at[2:4], at[4]))
 
 
-@dataclass(frozen=True, kw_only=True)
-class UnbalancePlane:
+class UnbalancePlane(NamedTuple):
     """An unbalance that is a parameter of the compiled system.
 
     Attributes

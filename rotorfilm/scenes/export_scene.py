@@ -329,16 +329,16 @@ def export_machine_fmu(
         phasor = one.unbalance * np.exp(1j * one.unbalance_angle)
         sums[one.node] = sums.get(one.node, 0.0) + phasor
     planes = tuple(
-        UnbalancePlane(
-            station=f"plane_{node}", unbalance=float(abs(sum_)), unbalance_angle=float(np.angle(sum_))
-        )
+        UnbalancePlane(f"plane_{node}", float(abs(sum_)), float(np.angle(sum_)))
         for node, sum_ in sums.items()
     )
     further = (Station(node=node, name=plane.station) for node, plane in zip(sums, planes, strict=True))
     whole = replace(rotor, stations=(*rotor.stations, *further))
     reduced = reduce_rotor(whole, frequency=frequency, tolerance=tolerance).rotor
     resting, at = at_rest(reduced, bearings, float(reduced.profile.speed(0.0)))
-    model = replace(mount(resting, from_shaft_rest(bearings, at)), planes=planes)
+    model = mount(resting, from_shaft_rest(bearings, at))
+    if model.native() is not None:  # in Python the unbalances stay those of the rotor
+        model = replace(model, planes=planes)
     export_fmu(
         model,
         path,
