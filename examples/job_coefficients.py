@@ -13,6 +13,6 @@ bearing = rf.JournalBearing(
 )  # fmt: skip
 table = coefficient_table(bearing, [0.0, -5000.0], np.linspace(1000.0, 10000.0, 7) * np.pi / 30.0)
 print(table)
-table.to_csv("job_coefficients.csv")
+table.to_table().to_csv("job_coefficients.csv")
 picture_of(table).save("job_coefficients.png")
 print("power loss at 10 000 rpm [W]", table.to_dataframe()["power_loss"].iloc[-1])

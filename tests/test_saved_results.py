@@ -52,6 +52,12 @@ def test_a_run_and_a_response_come_back(tmp_path):
     assert (list(again.output_labels), list(again.omega)) == (response.output_labels, [100.0, 200.0])
 
 
+@pytest.mark.parametrize("kind", [">f8", "<f8", ">c16", "i4", "?"])
+def test_arrays_of_any_byte_order_keep_their_numbers(kind, tmp_path):
+    array = np.array([[1, 0], [3, 5]]).astype(kind)
+    assert_array_equal(load_result(save_result(array, tmp_path / "a.json")), array)
+
+
 def test_what_is_no_result_and_what_is_damaged_is_refused(tmp_path):
     with pytest.raises(rf.InputError, match=r"Trajectory.signals\['x'\] must be a number, an array"):
         save_result(rf.Trajectory(time=np.zeros(1), signals={"x": len}, work={}), tmp_path / "a.json")

@@ -80,7 +80,7 @@ def basin_scan(
     turns : int
         Longest run in turns of the shaft; it ends sooner once it is decided.
     rtol : float [1]
-        Rtol as in `simulate_rotor`.
+        Relative tolerance of the runs, as `rtol` of `simulate_rotor`.
 
     Raises
     ------

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
-from ..core.errors import InputError, require_finite
+from ..core.errors import InputError, require_finite, warn_user
 from ..core.files import read_text
 from ..core.frames import Column, ResultTable, write_csv
 from ..core.inputs import quantities
@@ -95,7 +95,10 @@ def _numbers(path: Path | str, name: str, unit: str, entries: list[str]) -> Arra
     known = si_name(unit) in UNITS  # a force per angle is not
     try:
         return np.array(
-            [parse_quantity(one, si_name(unit)) if known else float(one.split()[0]) for one in entries]
+            [
+                parse_quantity(one, si_name(unit)) if known else float(one.removesuffix(f" {unit}"))
+                for one in entries
+            ]
         )
     except ValueError as wrong:
         raise InputError(f"{path} must hold numbers below {name!r}: {wrong}") from None
@@ -161,12 +164,18 @@ class TabulatedBearing(Plottable, Tabled, LinearReaction):
         Returns
         -------
         TabulatedBearing
-            Cross terms and damping that the file does not have are zero.
+            Cross terms and damping that the file does not have are zero. A heading without a unit is in SI.
 
         Raises
         ------
         InputError
-            If a heading, a unit or a number cannot be read, or speed, kxx or kyy is missing.
+            If a heading, a unit or a number cannot be read, speed, kxx or kyy is missing, or a column is
+            there twice.
+
+        Warns
+        -----
+        ValidityWarning
+            If entries are taken as zero while columns that begin with k or c are not read.
         """
         heading, *rows = list(csv.reader(io.StringIO(read_text(path), newline=""))) or [[]]
         known = {entry.partition(" ")[0] for entry in heading}
@@ -176,16 +185,23 @@ class TabulatedBearing(Plottable, Tabled, LinearReaction):
         if unknown := [key for key in given if key not in units]:
             raise InputError(f"columns must be of {', '.join(units)}, got {unknown[0]!r}")
         found, there = {}, [_split_heading(entry)[0].lower() for entry in heading]
+        unread = {place for place, entry in enumerate(there) if entry[:1] in ("k", "c")}
         needed = ("speed", "kxx", "kyy") if freedoms == PLANAR else units
         for name, unit in units.items():
             wanted, meant = _split_heading(given.get(name, name))
             if wanted.lower() in there:
                 place = there.index(wanted.lower())
+                unread.discard(place)
+                if there.count(wanted.lower()) > 1:
+                    raise InputError(f"{path} must have one column {wanted!r}, got {heading}")
                 written = meant or _split_heading(heading[place])[1] or unit
                 entries = [f"{row[place] if place < len(row) else ''} {written}" for row in rows if any(row)]
                 found[name] = _numbers(path, name, unit, entries)
             elif name in given or name in needed:
                 raise InputError(f"{path} must have a column {given.get(name, name)!r}, got {heading}")
+        if unread and (zero := [name for name in units if name not in found]):
+            named = ", ".join(repr(heading[place]) for place in sorted(unread))
+            warn_user(f"{path}: {', '.join(zero)} are taken as 0, and the columns {named} are not read")
         size, n = len(found["speed"]), len(freedoms)
         columns_of = [found.get(name, np.zeros(size)) for name in list(units)[1:]]
         tables = np.array(columns_of).T.reshape(size, 2, n, n)

@@ -39,7 +39,7 @@ def new_grid(
     Parameters
     ----------
     count, columns : int
-        Count and columns of all, and in a row.
+        Number of Axes, and of Axes in a row.
     size : (float, float) [inch]
         Size of one of them.
     title : str

@@ -167,7 +167,7 @@ def plot_tornado(effects: Mapping[str, tuple[float, float]], *, base: float, qua
     quantity : str
         Its label, with its unit.
     """
-    order = sorted(effects, key=lambda name: float(np.ptp(effects[name])))
+    order = sorted(effects, key=lambda name: float(np.nan_to_num(np.ptp(effects[name]))))
     low, high = (np.array([effects[name][side] for name in order]) for side in (0, 1))
     names = np.array(order)
     marks: list[Mark] = [

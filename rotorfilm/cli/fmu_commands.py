@@ -34,7 +34,8 @@ def build(
 
     Example: rotorfilm fmu build examples/friswell.toml --out fmus --fmi 3.0
     """
-    from ..scenes.export_scene import export_scene, export_scene_system
+    from ..reports.answer_rows import RPM
+    from ..scenes.export_scene import export_scene, export_scene_system, system_speed
 
     loaded = load_scene(scene, changes)
     with inside(scene):
@@ -45,7 +46,10 @@ def build(
         if ssp:
             made_system = export_scene_system(loaded, out / "system.ssp", version=fmi, platforms=platforms)
             files["ssp"] = str(made_system)
-    return CommandOutput(files, partial(console.print_rows, "FMUs", files.items()))
+    rows = [*files.items()]
+    if loaded.shaft is not None:
+        rows += [("speed", f"{system_speed(loaded) * RPM:.6g} rpm")]
+    return CommandOutput(files, partial(console.print_rows, "FMUs", rows))
 
 
 def check(file: FmuFile) -> CommandOutput:

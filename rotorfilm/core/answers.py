@@ -198,9 +198,9 @@ class QuestionAnswer(Drawable):
     model : str
         The rung that answered; where none meets the tolerance, the one with the smallest estimate.
     cost, estimate_cost : float [s]
-        Cost and estimate cost of its answer and of its estimate.
+        Time for its answer and for its estimate.
     total_cost : float [s]
-        Total cost of all that was tried.
+        Time for all models that were tried.
     next_model : str or None
         The rung above it.
     next_cost : float or None [s]

@@ -65,9 +65,7 @@ def _is_ours(kind: type) -> bool:
 
 def _packed(value: Any, where: str) -> Any:
     """Return a value as JSON has it; `where` names it in messages."""
-    if value is None or isinstance(value, bool | str | int):
-        return value
-    if isinstance(value, float):
+    if value is None or isinstance(value, bool | str | int | float):
         return value
     if isinstance(value, complex | np.ndarray | np.generic) and np.asarray(value).dtype.kind in "biufc":
         array = np.ascontiguousarray(value)
@@ -109,7 +107,7 @@ def _unpacked(value: Any) -> Any:
     inner: Any = value["of"]
     match value[KIND]:
         case "array":
-            dtype: Any = np.dtype(value["type"])
+            dtype: Any = np.dtype(value["type"]).newbyteorder("=")
             array = np.array(inner, dtype.type(0).real.dtype).view(dtype)
             return array.item() if value["shape"] is None else array.reshape(value["shape"])
         case "response":

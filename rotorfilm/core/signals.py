@@ -22,7 +22,7 @@ class Freedom(NamedTuple):
     turns : bool
         Whether the place is an angle [rad] and the force a moment [N m].
     way : str
-        Way as "along x" or "about +x".
+        Direction, as "along x" or "about +x".
     """
 
     rate: str
@@ -160,9 +160,9 @@ class Variable(Scalar):
     start : float or None
         Start value [unit]; of a state, the initial state. None for what is calculated.
     tunable : bool
-        Tunable of a parameter: whether it may be set between steps.
+        Whether a parameter may be set between steps.
     state : int or None
-        State of the derivative of a state, the index of the state in the list.
+        For the derivative of a state, the index of the state in the list.
     switch : bool
         Whether it is the value of a switching function, an event indicator.
     array : str

@@ -8,7 +8,6 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -45,7 +44,7 @@ class Measurements:
     load : array_like, shape (2,) or (2, n) [N]
         External static force on the journal.
     values : mapping of str to array_like, shape (n,)
-        Values by name, in SI units or as texts with units: "x" and "y" of the journal, "temperature" of the
+        Values by name, in SI units: "x" and "y" of the journal, "temperature" of the
         film, "power_loss", "side_flow", and "kxx" to "cyy". Use not-a-number where a quantity was not
         measured.
     noise : mapping of str to float, optional
@@ -79,8 +78,7 @@ class Measurements:
         found = {}
         for name, given in self.values.items():
             try:
-                texts: Any = given
-                found[name] = series = np.array([_in_si(name, one) for one in texts], dtype=float)
+                found[name] = series = np.asarray(given, dtype=float)
             except (TypeError, ValueError):
                 raise InputError(f"values must be numeric for {name!r}, got {brief(given)}") from None
             if series.shape != speed.shape or np.isinf(series).any():
@@ -124,6 +122,8 @@ class Measurements:
         columns = dict(
             _column(heading, [row[k] for row in rows if row]) for k, heading in enumerate(headings)
         )
+        if len(columns) < len(headings):
+            raise InputError(f"{path} must have each quantity in one column, got {headings}")
         if "speed" not in columns or (load is None and not {"load_x", "load_y"} <= set(columns)):
             raise InputError(
                 f"{path} must have columns speed, and load_x and load_y where none is given, got {headings}"
@@ -173,14 +173,18 @@ def _column(heading: str, entries: list[str]) -> tuple[str, list[float]]:
     known = {**QUANTITIES, **_AXES}
     if match is None or match[1] not in known:
         raise InputError(f"headings must be a quantity with its unit such as 'x [um]', got {brief(heading)}")
+    unit, own = known[match[1]], match[2] or ""
+    if not own and any(_is_bare(entry) for entry in entries):
+        raise InputError(f"{match[1]} must have a unit in its heading or in each entry, got {brief(entries)}")
     return match[1], [
-        _in_si(match[1], f"{entry} {match[2] or ''}" if entry.strip() else "") for entry in entries
+        parse_quantity(f"{entry} {own}", unit, absolute=unit == "K") if entry.strip() else np.nan
+        for entry in entries
     ]
 
 
-def _in_si(name: str, entry: Any) -> float:
-    """Return one number in SI; nan where there is none."""
-    unit = {**QUANTITIES, **_AXES}[name]
-    if not isinstance(entry, str):
-        return float(entry)
-    return parse_quantity(entry, unit, absolute=unit == "K") if entry.strip() else np.nan
+def _is_bare(entry: str) -> bool:
+    """Return whether an entry is a number without a unit."""
+    try:
+        return bool(float(entry) or True)
+    except ValueError:
+        return False

@@ -178,8 +178,13 @@ def _thinned(curve: CurveMark) -> CurveMark:
     kept: set[Any] = {0, size - 1}
     for part in np.array_split(np.arange(size), SHOWN // 4):
         for values in (curve.x, curve.y):
-            among = np.nan_to_num(np.asarray(values, dtype=float)[part])
-            kept |= {part[among.argmin()], part[among.argmax()]}
+            among = np.asarray(values, dtype=float)[part]
+            lost = np.isnan(among)  # where a line breaks
+            kept |= {
+                part[np.where(lost, np.inf, among).argmin()],
+                part[np.where(lost, -np.inf, among).argmax()],
+            }
+            kept |= {part[lost.argmax()]} if lost.any() else set()
     places = np.array(sorted(kept))
     z = None if curve.z is None else np.asarray(curve.z)[places]
     return curve._replace(x=np.asarray(curve.x)[places], y=np.asarray(curve.y)[places], z=z)

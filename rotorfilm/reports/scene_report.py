@@ -17,7 +17,7 @@ from .. import analysis, charts
 from ..bearings.journal import JournalBearing, ReynoldsFilm, film_state
 from ..bearings.seal import AnnularSeal
 from ..core.answers import LeftOutRemark, QuestionAnswer
-from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarning
+from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarning, require_positive
 from ..core.frames import Column, ResultTable
 from ..core.progress import Report as Progress, silent
 from ..core.readable import Readable, Row
@@ -45,6 +45,9 @@ SHAPES = 3
 
 PRESSURE = ReynoldsFilm(cells=(144, 12))
 """Film of the pressure that is drawn."""
+
+MAIN = ("minimum film", "temperature", "highest pressure", "maximum pressure", "power loss")
+"""Rows of an answer that a summary repeats."""
 
 PACKAGES = ("rotorfilm", "numpy", "scipy", "control")
 
@@ -83,9 +86,12 @@ def report_scene(
 
     Raises
     ------
+    InputError
+        If the operating range is none, or the scene has no shaft for it.
     RotorfilmError
         Where the scene has no answer.
     """
+    _check_operating(scene, operating)
     answer, motion = None, None
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", ValidityWarning)
@@ -103,9 +109,8 @@ def report_scene(
         parts += study_sections(scene, vary or {}, tolerances or {}, quantity, samples)
     told = [str(one.message) for one in caught if issubclass(one.category, ValidityWarning)]
     found = Report(scene.title, tuple(parts))
-    summary = ReportSection("Summary", found.verdicts or _short(answer, motion))
     sections = (
-        summary,
+        ReportSection("Summary", [*found.verdicts, *_main(answer, motion)]),
         ReportSection("Machine", list(_machine(scene))),
         ReportSection("Inputs", [_inputs(scene)]),
         ReportSection("Assumptions and effects left out", list(_left_out(answer, told))),
@@ -113,7 +118,18 @@ def report_scene(
         ReportSection("Models and versions", list(_models(answer))),
     )
     files = {"scene.toml": scene_text(scene.given)} if scene.given else {}
-    return Report(scene.title, sections, files)
+    return Report(scene.title, tuple(one for one in sections if one.blocks), files)
+
+
+def _check_operating(scene: Scene, operating: tuple[float, float] | None) -> None:
+    if operating is None:
+        return
+    if scene.shaft is None:
+        raise InputError("operating must be of a scene with a [shaft], got one without")
+    for speed in operating:
+        require_positive("operating", speed)
+    if len(operating) != 2 or operating[0] > operating[1]:
+        raise InputError(f"operating must be the first and the last speed, got {operating} rad/s")
 
 
 def _moves(scene: Scene) -> bool:
@@ -123,8 +139,15 @@ def _moves(scene: Scene) -> bool:
     return kind in MOVING or on_film or (scene.contact is not None and scene.excitation is not None)
 
 
-def _short(answer: Any, motion: FollowedMotion | None) -> list[Block]:
-    return [motion.rows] if motion else [answer_rows(answer)[:6]]
+def _main(answer: Any, motion: FollowedMotion | None) -> Iterator[Block]:
+    """Yield the main results of a summary."""
+    rows = [] if answer is None else answer_rows(answer)
+    if isinstance(answer, QuestionAnswer):
+        yield rows[:2]
+    elif main := [(name.strip(), text) for name, text in rows if name.removeprefix("  ") in MAIN]:
+        yield main
+    elif answer is None and motion:
+        yield motion.rows
 
 
 # The machine and what was given.
@@ -265,7 +288,7 @@ def _film(scene: Scene, answer: Answer) -> Iterator[Block]:
         yield charts.picture_of(state)
         yield charts.picture_of(state, "circumference")
     with suppress(RotorfilmError):  # not every bearing has an equilibrium at every speed
-        speeds = np.linspace(0.5, 1.5, 11) * speed
+        speeds = np.sort(np.linspace(0.5, 1.5, 11) * scene.speed)
         table = analysis.coefficient_table(bearing, scene.static_load, speeds)
         yield table.to_table()
         yield charts.picture_of(table)

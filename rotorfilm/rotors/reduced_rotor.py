@@ -182,6 +182,8 @@ def reduce_rotor(rotor: FlexibleRotor, *, frequency: float, tolerance: float = 1
     require_positive("frequency", frequency)
     require_positive("tolerance", tolerance)
     s = rotor.structure
+    if np.linalg.matrix_rank(s.journals) < len(s.journals):
+        raise InputError(f"stations must be at different nodes for a reduction, got {list(s.stations)}")
     most = len(s.coordinates) - len(s.stations) - len(s.supports)
     wanted = list(_felt_over(s, frequency))
     for modes in range(most + 1):

@@ -202,13 +202,17 @@ def _damped_rotor(scene: Scene) -> tuple[Any, float, float]:
     return mount(models.rotor, {"": support}), models.step, scene.speed
 
 
+def system_speed(scene: Scene) -> float:
+    """Return the speed at which a flexible rotor is exported [rad/s]."""
+    return float(scene.shaft.speeds.first if scene.operation is None else scene.speed)
+
+
 def _shaft_system(scene: Scene, tolerance: float) -> tuple[Any, float, float]:
     """Return the flexible rotor of a scene at rest in its bearings, a step [s], and its speed."""
     from .solve_shaft import added_unbalance  # as above
 
-    speeds = scene.shaft.speeds
-    speed = speeds.first if scene.operation is None else scene.speed
-    highest = scene.shaft.highest_frequency or 2.0 * speeds.last
+    speed = system_speed(scene)
+    highest = scene.shaft.highest_frequency or 2.0 * scene.shaft.speeds.last
     whole = scene.shaft.build(speed=speed, extra=added_unbalance(scene))
     bearings = scene.shaft.build_bearings()
     reduced = reduce_rotor(whole, frequency=highest, tolerance=tolerance).rotor
@@ -292,20 +296,19 @@ def export_machine_fmu(
 
     Outputs are the motions of its bearings and probes by their names, and the forces of the bearings.
     Parameters are `constant_speed` [rad/s], fixed, and of each plane with an `Unbalance`, by its node k,
-    `plane_k_unbalance` [kg m] and `plane_k_unbalance_angle` [rad], tunable where the FMU is compiled; an
-    unbalance of 0 makes a plane too. Inputs are forces in the planes, `plane_k_force_x` and _y [N].
+    `plane_k_unbalance` [kg m] and `plane_k_unbalance_angle` [rad], tunable; an unbalance of 0 makes a plane
+    too. An FMU that is not compiled has no parameters, and the unbalances of the rotor. Inputs are forces in
+    the planes, `plane_k_force_x` and _y [N]. A plane is at a node without a bearing.
 
     Parameters
     ----------
     rotor : ShaftRotor
     bearings : mapping of str to Reaction
         By station, one for each.
-    path, version, platforms, component, stop_time, step_size
+    path, version, frequency, tolerance, platforms, component
+        As in `export_rotor_fmu`.
+    stop_time, step_size : float [s]
         As in `export_fmu`.
-    frequency : float [rad/s]
-        Highest frequency of interest, as in `reduce_rotor`.
-    tolerance : float [1]
-        Largest error of the reduction.
 
     Returns
     -------
@@ -333,7 +336,9 @@ def export_machine_fmu(
     whole = replace(rotor, stations=(*rotor.stations, *further))
     reduced = reduce_rotor(whole, frequency=frequency, tolerance=tolerance).rotor
     resting, at = at_rest(reduced, bearings, float(reduced.profile.speed(0.0)))
-    model = replace(mount(resting, from_shaft_rest(bearings, at)), planes=planes)
+    model = mount(resting, from_shaft_rest(bearings, at))
+    if model.native() is not None:  # in Python the unbalances stay those of the rotor
+        model = replace(model, planes=planes)
     export_fmu(
         model,
         path,

@@ -119,7 +119,10 @@ def models_of(scene: Any) -> SceneModels:
     place = next((FAMILIES[name].models for name in given if FAMILIES[name].models), None)
     if place is None:
         known = [name for name, family in FAMILIES.items() if family.models]
-        raise InputError(f"scene must have one of the tables {known} for FMUs, got {given}")
+        raise InputError(
+            f"scene must have one of the tables {known} for FMUs, got {given}; in Python "
+            "`export_fmu` takes any bearing"
+        )
     found: SceneModels = brought(place)(scene)
     return found
 

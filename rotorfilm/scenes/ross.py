@@ -287,7 +287,7 @@ def to_ross(
     bearing: LinearBearing | TabulatedBearing | AnnularSeal | FrequencyDependentReaction,
     node: int,
     *,
-    speed: float = 0.0,
+    speed: float | None = None,
     tag: str | None = None,
 ) -> BearingElement:
     """Return stiffness and damping of a bearing, over speed if it has a table, as a bearing of ROSS.
@@ -302,7 +302,7 @@ def to_ross(
     node : int
         Node of the rotor of ROSS.
     speed : float [rad/s]
-        Of a bearing with an added mass.
+        Speed of the shaft, for an `AnnularSeal`.
     tag : str, optional
         Name of the element.
 
@@ -333,11 +333,13 @@ def to_ross(
     return element(n=node, tag=tag, **values)
 
 
-def _terms(bearing: Any, speed: float) -> dict[str, Array]:
+def _terms(bearing: Any, speed: float | None) -> dict[str, Array]:
     """Return stiffness k, damping c and, where there is one, added mass m of a bearing."""
     if isinstance(bearing, LinearBearing | TabulatedBearing):
         return {"k": np.asarray(bearing.stiffness), "c": np.asarray(bearing.damping)}
     if isinstance(bearing, AnnularSeal):
+        if speed is None:
+            raise InputError("speed is required for an AnnularSeal, got none")
         found = coefficients(bearing, np.zeros(2), speed)
         return {"k": found.stiffness, "c": found.damping, "m": added_mass(found)}
     if isinstance(bearing, FrequencyDependentReaction) and not (bearing.states or np.size(bearing.speeds)):

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from ..bearings.journal import JournalBearing
 from ..bearings.linear import LinearBearing
 from ..bearings.seal import AnnularSeal
-from ..core.errors import InputError, SceneError
+from ..core.errors import InputError, SceneError, brief
 from ..core.inputs import arguments
 from ..core.port import Bearings
 from ..rotors import ShaftRotor
@@ -38,7 +38,7 @@ def scene_of(rotor: ShaftRotor, bearings: Bearings, speeds: ArrayLike, title: st
     bearings : mapping of str to Reaction
         By station: `JournalBearing`, `LinearBearing` or `AnnularSeal`.
     speeds : array_like, shape (n,) [rad/s]
-        Range that is looked at.
+        Range that is looked at, at equal distances.
     title : str
 
     Raises
@@ -47,6 +47,10 @@ def scene_of(rotor: ShaftRotor, bearings: Bearings, speeds: ArrayLike, title: st
         If a scene file has no such element, bearing or number.
     """
     grid = np.asarray(speeds, dtype=float)
+    if grid.ndim != 1 or grid.size < 2 or not np.allclose(grid, np.linspace(grid[0], grid[-1], grid.size)):
+        raise InputError(f"speeds must be an even list of two or more, got {brief(speeds)}")
+    if {*bearings} != {one.name for one in rotor.stations}:
+        raise InputError(f"bearings must be one for each station of the rotor, got {list(bearings)}")
     pieces = [one for one in rotor.elements if hasattr(one, "material")]
     if not pieces:
         raise InputError("rotor must have a ShaftElement for a scene, got none")
@@ -78,6 +82,9 @@ def scene_of(rotor: ShaftRotor, bearings: Bearings, speeds: ArrayLike, title: st
         raise InputError(f"rotor must be what a scene file may hold: {error}") from None
     if found.shaft.build(speed=rotor.profile.speed(0.0)) != rotor:
         raise InputError("rotor must be what a scene file may hold, got one with more than that")
+    for name, one in found.shaft.build_bearings().items():
+        if one != bearings[name]:
+            raise InputError(f"bearings[{name!r}] must be what a scene file may hold, got {bearings[name]!r}")
     return found
 
 

@@ -22,7 +22,7 @@ from ..core.errors import (
     warn_user,
 )
 from ..core.frames import Column, ResultTable
-from ..core.inputs import arguments
+from ..core.inputs import arguments, nearest
 from ..core.model import Array
 from ..core.progress import Report, silent
 from ..core.readable import Drawable
@@ -144,15 +144,17 @@ def scatter_study(
         If there is no answer without deviations, or in no sample.
     """
     draws = _draws(nominal, tolerances, samples, seed)
+    reasons = []
 
     def solved(values: Mapping[str, float]) -> float:
         try:
             return float(solve(**{**nominal, **values}))
-        except RotorfilmError:
+        except RotorfilmError as error:
+            reasons.append(str(error))
             return np.nan
 
     rows = [dict(zip(draws, row, strict=True)) for row in zip(*draws.values(), strict=True)]
-    return _study(draws, np.array([solved(row) for row in rows]), quantity, unit)
+    return _study(draws, np.array([solved(row) for row in rows]), quantity, unit, reasons)
 
 
 @arguments
@@ -204,10 +206,13 @@ def tolerance_study(
     numbers = [
         one for one in found.data_vars if found[one].dims == (SAMPLE,) and found[one].dtype.kind == "f"
     ]
+    reasons = [one for one in map(str, found["failure"].values) if one]
+    if not numbers:
+        raise AbsentError(f"{name} must have a value without deviations, got none: {reasons[0]}")
     if name not in numbers:
         raise InputError(f"quantity must be one of {', '.join(map(str, numbers))}, got {name!r}")
     asked = str(tables["question"]["quantity"]) if name == "value" else name
-    return _study(draws, found[name].values, asked, str(found[name].attrs.get("units", "")))
+    return _study(draws, found[name].values, asked, str(found[name].attrs.get("units", "")), reasons)
 
 
 def _read(tables: Mapping[str, Any], key: str, tolerance: Any) -> tuple[float, float]:
@@ -219,7 +224,8 @@ def _read(tables: Mapping[str, Any], key: str, tolerance: Any) -> tuple[float, f
         try:
             value = value[int(part) if isinstance(value, list) else part]
         except (KeyError, IndexError, ValueError, TypeError):
-            raise InputError(f"tolerances must have keys that the scene gives, got {key!r}") from None
+            meant = nearest(part, value if isinstance(value, Mapping) else ())
+            raise InputError(f"tolerances must have keys that the scene gives, got {key!r}{meant}") from None
     reader = quantity_of(Scene, key.split("."))
     if reader is None or isinstance(value, list):
         raise InputError(f"tolerances must have keys of quantities, got {key!r} = {value!r}")
@@ -272,15 +278,23 @@ def _draws(
     return draws
 
 
-def _study(draws: dict[str, Array], values: Array, quantity: str, unit: str) -> ToleranceStudy:
-    first = 1 + 2 * len(draws)
+def _study(
+    draws: dict[str, Array], values: Array, quantity: str, unit: str, reasons: list[str]
+) -> ToleranceStudy:
+    first, reason = 1 + 2 * len(draws), "".join(f": {one}" for one in reasons[:1])
     values = np.where(np.isfinite(values), values, np.nan)
     if not np.isfinite(values[0]):
-        raise AbsentError(f"{quantity} must have a value without deviations, got none")
+        raise AbsentError(f"{quantity} must have a value without deviations, got none{reason}")
     drawn = values[first:]
+    effects = {name: (float(values[1 + 2 * k]), float(values[2 + 2 * k])) for k, name in enumerate(draws)}
     failures = int(np.count_nonzero(~np.isfinite(drawn)))
     if failures == drawn.size:
-        raise AbsentError(f"{quantity} must have a value in at least one sample, got none in {failures}")
+        raise AbsentError(
+            f"{quantity} must have a value in at least one sample, got none in {failures}{reason}"
+        )
+    silent_ends = [name for name, ends in effects.items() if not np.isfinite(ends).all()]
+    if silent_ends:
+        warn_user(f"an end of the tolerance has no answer, of {', '.join(silent_ends)}{reason}")
     if failures:
         warn_user(f"{failures} of {drawn.size} samples have no answer, and are not in the histogram")
     return ToleranceStudy(
@@ -291,6 +305,6 @@ def _study(draws: dict[str, Array], values: Array, quantity: str, unit: str) -> 
         deviation=float(np.nanstd(drawn)),
         values=drawn,
         parameters={name: column[first:] for name, column in draws.items()},
-        effects={name: (float(values[1 + 2 * k]), float(values[2 + 2 * k])) for k, name in enumerate(draws)},
+        effects=effects,
         failures=failures,
     )

@@ -1,12 +1,13 @@
 """Coefficient tables over speed."""
 
+import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm import InputError, Reaction, TabulatedBearing
+from rotorfilm import InputError, Reaction, TabulatedBearing, ValidityWarning
 from rotorfilm.analysis import coefficient_table, coefficients, equilibrium
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
 
@@ -102,6 +103,34 @@ def test_foreign_tables_are_read_in_their_units_and_order(tmp_path):
     ):
         with pytest.raises(InputError, match=message):
             TabulatedBearing.from_csv(path, columns=columns)
+
+
+def test_columns_that_are_not_read_or_stand_twice_are_told(tmp_path):
+    path = tmp_path / "foreign.csv"
+    path.write_text("speed [rpm],Kxx [N/m],K_xy [N/m],Kyy [N/m]\n600,1,5,2\n")
+    with pytest.warns(
+        ValidityWarning, match="kxy, kyx, .* are taken as 0, and the columns 'K_xy .* not read"
+    ):
+        TabulatedBearing.from_csv(path)
+    with warnings.catch_warnings(action="error"):
+        named = {"kxy": "K_xy"}
+        assert TabulatedBearing.from_csv(path, columns=named).stiffness[0][0][1] == 5.0
+    path.write_text("speed [rpm],Kxx [N/m],Kxx [N/mm],Kyy [N/m]\n600,1,5,2\n")
+    with pytest.raises(InputError, match="must have one column 'kxx'"):
+        TabulatedBearing.from_csv(path)
+
+
+def test_a_unit_that_is_not_known_is_not_passed_over(tmp_path):
+    """A force per angle has no other unit than N/rad."""
+    freedoms = ("z", "tilt_x")
+    table = TabulatedBearing(
+        speeds=[1.0], stiffness=[[[1.0, 2.0], [3.0, 4.0]]], damping=np.zeros((1, 2, 2)), freedoms=freedoms
+    )
+    path = table.to_csv(tmp_path / "own.csv")
+    assert_allclose(TabulatedBearing.from_csv(path).stiffness, table.stiffness)
+    path.write_text(path.read_text().replace("[N/rad]", "[kN/rad]"))
+    with pytest.raises(InputError, match="must hold numbers below 'k_z_tilt_x'"):
+        TabulatedBearing.from_csv(path)
 
 
 @pytest.mark.parametrize("speed", [49.9, 400.1, [100.0, 401.0], -100.0])

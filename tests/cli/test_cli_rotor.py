@@ -206,3 +206,17 @@ def test_a_folder_is_no_file_of_signals(run, tmp_path):
     code, out, err = run("run", EXAMPLES / "weak_motor.toml", "--out", tmp_path)
     assert (code != 0, out) == (True, "")
     assert str(tmp_path) in err
+
+
+def test_the_speed_of_a_system_fmu_is_said(run, tmp_path):
+    code, shown, _ = run("fmu", "build", EXAMPLES / "flexible_rotor.toml", "--out", tmp_path)
+    assert code == 0
+    assert "speed   200 rpm" in shown
+
+
+def test_a_bearing_without_a_rotor_is_sent_to_python(run, tmp_path):
+    scene = tmp_path / "thrust.toml"
+    scene.write_text(run("new", "thrust")[1])
+    code, _, err = run("fmu", "build", scene, "--out", tmp_path)
+    assert code == 2
+    assert "in Python `export_fmu` takes any bearing" in " ".join(err.split())

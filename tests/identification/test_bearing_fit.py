@@ -150,6 +150,15 @@ def test_csv_has_units_in_its_headings(tmp_path):
     path.write_text("speed [rpm],z [um]\n1500,40.5\n")
     with pytest.raises(InputError, match="headings must be a quantity with its unit"):
         Measurements.read(path, load=LOAD)
+    path.write_text("speed,x\n1500 rpm,40.5 um\n3000 rpm,\n")
+    np.testing.assert_allclose(Measurements.read(path, load=LOAD).table, [[40.5e-6], [np.nan]])
+    for text, message in (
+        ("speed,x [um]\n1500,40.5\n", "speed must have a unit in its heading or in each entry"),
+        ("speed [rpm],x [um],x [mm]\n1500,40.5,0.1\n", "each quantity in one column"),
+    ):
+        path.write_text(text)
+        with pytest.raises(InputError, match=message):
+            Measurements.read(path, load=LOAD)
     path.write_text("x [um]\n1500\n")
     with pytest.raises(InputError, match="must have columns speed, and load_x and load_y where"):
         Measurements.read(path)

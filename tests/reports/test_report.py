@@ -14,8 +14,11 @@ from rotorfilm.analysis import clearance_check, vibration_limit
 from rotorfilm.charts import CurveMark, FieldMark, Picture, PicturePanel
 from rotorfilm.cli.main import main
 from rotorfilm.core import AbsentError
+from rotorfilm.core.frames import ResultTable
 from rotorfilm.reports import Report, ReportSection, Verdict
 from rotorfilm.reports.page import SHOWN, thinned
+from rotorfilm.scenes.new_scene import new_scene
+from rotorfilm.scenes.scene import read_scene
 from rotorfilm.sweeps import scatter_study, tolerance_study
 from rotorfilm.sweeps.tolerance_study import _read
 
@@ -121,14 +124,41 @@ def test_the_command_writes_a_page_and_tells_the_verdicts(tmp_path, capsys):
         assert ended.value.code == 2
 
 
-def test_long_curves_keep_their_extremes():
+def test_a_scene_without_verdicts_is_summed_up_by_its_results_and_has_no_empty_section():
+    tables = tomllib.loads(new_scene("thrust"))
+    found = read_scene(tables, "scene").report()
+    assert [name for name, _ in found.sections[0].blocks[0]] == [
+        "minimum film",
+        "power loss",
+        "highest pressure",
+    ]
+    assert all(part.blocks for part in found.sections)
+    with pytest.raises(rf.InputError, match=r"operating must be of a scene with a \[shaft\]"):
+        read_scene(tables, "scene").report(operating=(300.0, 400.0))
+
+
+@pytest.mark.parametrize("operating", [(400.0, 300.0), (-1.0, 300.0), (300.0,)])
+def test_an_operating_range_that_is_none_is_refused(operating):
+    scene = rf.Scene.load(EXAMPLES / "flexible_rotor.toml")
+    with pytest.raises(rf.InputError, match="operating must be"):
+        scene.report(operating=operating)
+
+
+def test_a_summary_of_a_film_or_a_question_has_its_numbers(bearing):
+    rows = dict(bearing.sections[0].blocks[-1])
+    assert set(rows) == {"minimum film", "power loss"}
+    assert rows["minimum film"].startswith("72.4")
+
+
+def test_long_curves_keep_their_extremes_and_their_breaks():
     x = np.arange(100 * SHOWN)
-    y = np.sin(x)
-    y[12345] = 7.0
+    y = np.sin(x) + 3.0
+    y[12345], y[23456], y[34567] = 7.0, 1.0, np.nan
     (thin,) = thinned(Picture((PicturePanel([CurveMark(x, y)], "x", "y"),))).panels[0].marks
     assert thin.x.size <= SHOWN + 2
-    assert (thin.y.max(), thin.y.min()) == (7.0, y.min())
-    assert thin.x[thin.y.argmax()] == 12345
+    assert (np.nanmax(thin.y), np.nanmin(thin.y)) == (7.0, 1.0)
+    assert np.isnan(thin.y[thin.x == 34567]).all()
+    assert thin.x[np.nanargmax(thin.y)] == 12345
 
 
 def response(x, y, speeds):
@@ -201,7 +231,10 @@ def test_a_study_of_tolerances_has_the_effects_and_the_scatter_of_a_linear_law()
 
 def test_samples_that_are_not_finite_are_failures():
     """A law that is infinite in the lower part of the range of its parameter."""
-    with pytest.warns(rf.ValidityWarning, match="samples have no answer"):
+    with (
+        pytest.warns(rf.ValidityWarning, match="samples have no answer"),
+        pytest.warns(rf.ValidityWarning, match="an end of the tolerance has no answer, of a"),
+    ):
         study = scatter_study(lambda a: 1.0 / (a - 1.0) if a > 1.0 else np.inf, {"a": 1.5}, {"a": 1.0})
     np.testing.assert_array_equal(np.isnan(study.values), study.parameters["a"] <= 1.0)
     assert study.failures == np.count_nonzero(study.parameters["a"] <= 1.0) > 0
@@ -243,6 +276,7 @@ def test_a_study_of_tolerances_of_a_scene_has_units_and_refuses_what_is_no_quant
     assert np.abs(found.parameters["journal.viscosity"] - 0.1).max() <= 0.01
     for wrong, message in (
         ({"journal.film": 1}, "keys that the scene gives"),
+        ({"journal.clearence": 1}, "got 'journal.clearence'; did you mean 'clearance'"),
         ({"title": 1}, "keys of quantities"),
         ({}, "at least one parameter"),
         ({"journal.clearance": "abc %"}, r"tolerances\['journal.clearance'\]: quantity must be a number"),
@@ -260,6 +294,37 @@ def test_a_study_of_tolerances_of_a_scene_has_units_and_refuses_what_is_no_quant
         _read({"lubricant": {"supply_temperature": 318.0}}, "lubricant.supply_temperature", "10 %")
     with pytest.raises(rf.InputError, match=r"quantity must be one of .*minimum_film"):
         tolerance_study(scene, {"journal.clearance": "5 um"}, "height", samples=2, workers=1)
+
+
+@pytest.mark.filterwarnings("ignore::rotorfilm.ValidityWarning")
+def test_a_study_without_answers_says_why():
+    with pytest.raises(
+        AbsentError, match=r"minimum_film must have a value without deviations, got none: .*load"
+    ):
+        tolerance_study(
+            EXAMPLES / "friswell.toml",
+            {"journal.clearance": "5 um"},
+            "minimum_film",
+            samples=2,
+            changes={"operation.load": "1e12 N"},
+            workers=1,
+        )
+
+    def refuse(a):
+        raise AbsentError("a is too large")
+
+    with pytest.raises(AbsentError, match="got none: a is too large"):
+        scatter_study(refuse, {"a": 1.0}, {"a": 0.5})
+
+
+@pytest.mark.parametrize("speed", ["1500 rpm", "-1500 rpm"])
+def test_coefficients_over_speed_are_those_of_the_sense_of_rotation(speed):
+    scene = rf.Scene.load(EXAMPLES / "short.toml", {"operation.speed": speed})
+    (part,) = [one for one in scene.report().sections if one.heading.startswith("Equilibrium")]
+    (table,) = [block for block in part.blocks if isinstance(block, ResultTable)]
+    columns = {one.name: np.asarray(one.values) for one in table.columns}
+    middle = np.argmin(np.abs(columns["speed"] - scene.speed))
+    assert columns["kxy"][middle] == pytest.approx(scene.solve().coefficients.stiffness[0, 1], rel=1e-6)
 
 
 @pytest.mark.skipif(BROWSER is None, reason="no headless browser")

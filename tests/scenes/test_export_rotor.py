@@ -12,10 +12,11 @@ from scipy.linalg import expm
 
 from rotorfilm import ConvergenceError, InputError
 from rotorfilm.analysis import rotor_equilibrium, unbalance_response
+from rotorfilm.bearings import LinearBearing
 from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.core import names
 from rotorfilm.cosim import open_fmu
-from rotorfilm.fmu import export_fmu
+from rotorfilm.fmu import describe_fmu, export_fmu
 from rotorfilm.rotors import (
     Disk,
     ElasticMaterial,
@@ -284,3 +285,16 @@ def test_unbalances_of_a_machine_are_parameters_of_its_fmu(tmp_path):
     still = run_machine(tmp_path / "machine.fmu", outputs, {"plane_2_unbalance": 0.0})
     assert_allclose(still, np.broadcast_to(still[:, :1], still.shape), rtol=1e-6)
     assert abs(model.native().tables["unbalance"]).max() < 1e-12
+
+
+def test_a_machine_in_springs_is_an_fmu_in_python_and_planes_are_beside_bearings(tmp_path):
+    springs = dict.fromkeys(("left", "right"), LinearBearing(stiffness=1e7, damping=1e4))
+    path = tmp_path / "machine.fmu"
+    export_machine_fmu(rotor(), springs, path, frequency=200.0, stop_time=1e-3)
+    assert "PythonFMU" in describe_fmu(path)["generation_tool"]
+    with pytest.raises(
+        InputError, match=r"stations must be at different nodes for a reduction, got .*plane_0"
+    ):
+        export_machine_fmu(
+            rotor(unbalances=(Unbalance(node=0, unbalance=1e-4),)), springs, path, frequency=200.0
+        )

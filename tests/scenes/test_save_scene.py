@@ -8,7 +8,7 @@ import pytest
 import rotorfilm as rf
 from rotorfilm.bearings import FrequencyDependentReaction
 from rotorfilm.scenes import scene_of
-from rotorfilm.scenes.ross import read_bearing
+from rotorfilm.scenes.ross import read_bearing, to_ross
 
 STEEL = rf.ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
 ROTOR = rf.ShaftRotor(
@@ -50,6 +50,16 @@ def test_what_a_file_cannot_hold_is_refused(tmp_path):
         scene_of(ROTOR, {"left": pads, "right": SPRING}, [100.0, 200.0])
     with pytest.raises(rf.InputError, match=r"shaft\.gravity is no known key"):
         scene_of(replace(ROTOR, gravity=(0.0, 0.0)), {"left": FILM, "right": SPRING}, [100.0, 200.0])
+    with pytest.raises(rf.InputError, match=r"bearings\['left'\] must be what a scene file may hold"):
+        scene_of(ROTOR, {"left": replace(SEAL, added_mass=False), "right": SPRING}, [100.0, 200.0])
+    for bearings in ({"left": FILM}, {"left": FILM, "right": SPRING, "third": SPRING}):
+        with pytest.raises(rf.InputError, match="bearings must be one for each station"):
+            scene_of(ROTOR, bearings, [100.0, 200.0])
+    for speeds in ([100.0, 200.0, 500.0], [], [[1.0]]):
+        with pytest.raises(rf.InputError, match="speeds must be an even list"):
+            scene_of(ROTOR, {"left": FILM, "right": SPRING}, speeds)
+    with pytest.raises(rf.InputError, match="speed is required for an AnnularSeal"):
+        to_ross(SEAL, 0)
     made = scene_of(ROTOR, {"left": FILM, "right": SPRING}, [100.0, 200.0])
     with pytest.raises(rf.InputError, match="scene must be read"):
         replace(made, title="in Python").save(tmp_path / "scene.toml")
