@@ -466,9 +466,9 @@ def _mapped(
     ----------
     full : Structure
     square : callable
-        Square from a matrix (N, N) to that in the other coordinates.
+        Function that returns a matrix (N, N) in the other coordinates.
     row : callable
-        Row from rows (..., N) to those over the other coordinates.
+        Function that returns rows (..., N) over the other coordinates.
     fields : object
         Fields of the result, in place of what these make.
     """
