@@ -493,7 +493,7 @@ def compiled_form(rotor: Dynamic, reaction: Any) -> MountedRotor | None:
     reaction : Reaction
         The bearing of that.
     """
-    if not _is_linear(rotor) or not _is_compiled(reaction):
+    if not is_linear(rotor) or not _is_compiled(reaction):
         return None
     mounted = mount(rotor, {"": reaction})
     if not all(map(_is_compiled, mounted.all_bearings.values())):
@@ -513,7 +513,7 @@ def takes_forces(rotor: Dynamic, bearings: Iterable[Any]) -> bool:
     mounted = rotor.all_bearings.values() if isinstance(rotor, MountedRotor) else ()
     every = (*bearings, *mounted)
     massless = all(not film.states and inertial(film) is None for film in every)
-    return massless and _is_linear(rotor) and all(freedoms_of(film) == PLANAR for film in every)
+    return massless and is_linear(rotor) and all(freedoms_of(film) == PLANAR for film in every)
 
 
 def _is_compiled(bearing: Any) -> bool:
@@ -521,7 +521,7 @@ def _is_compiled(bearing: Any) -> bool:
     return planar and inertial(bearing) is None and compiled_force(bearing) is not None
 
 
-def _is_linear(rotor: Dynamic) -> bool:
+def is_linear(rotor: Dynamic) -> bool:
     """Return whether a rotor, in bearings or not, has the equations of its matrices."""
     bare = rotor.bare if isinstance(rotor, MountedRotor) else rotor
     bare = bare.rotor if isinstance(bare, BaseExcitedRotor) else bare

@@ -344,6 +344,13 @@ class ConservedFilmState(NamedTuple):
         return dict(zip(ROWS, self.numbers[HEAD:].reshape(len(ROWS), *self.cells), strict=True))
 
 
+class StepsInC(NamedTuple):
+    """A film that the compiled loop steps: its structure, and the stiffness of springs beside it [N/m]."""
+
+    struct: Any
+    springs: float
+
+
 @once_for_each
 def _film_in_c(scaled: ScaledFilm) -> Any:
     """Return a film in SI units as the compiled library steps it."""
@@ -536,6 +543,13 @@ class MassConserving(ConservedAtRest):
         stiffness = np.empty((2, 2))
         end, solutions = self.inner_step(state, u, dt, near, stiffness)
         return StepTrial(end, self.answer(end), stiffness + self.scaled.springs * np.eye(2), solutions + 1)
+
+    @property
+    def compiled_steps(self) -> StepsInC | None:
+        """The film as `native/conserved/oil_rotor.h` steps it; None where a subclass changes `attempt`."""
+        if type(self).attempt is not MassConserving.attempt:
+            return None
+        return StepsInC(_film_in_c(self.scaled), self.scaled.springs)
 
     def inner_step(
         self,
