@@ -91,7 +91,7 @@ def simulate_steps(
     record, error = _Record(loop, times), StepError(loop.clearances)
     record.add(Stretch.at(now, loop.motions(np.zeros(1), state[None])))
     progress = Progress(duration, count)
-    while progress.done < count:
+    while progress.done < progress.pieces:
         ahead = loop.alike(before, now, progress.ahead(now.time))
         stretch, films_now, failure = loop.march(before, now, [step.length for step in ahead])
         gaps = stretch.gaps(loop.clearances)
@@ -143,22 +143,22 @@ class Progress(NamedTuple):
     Attributes
     ----------
     duration : float [s]
-    count : int
-        Pieces of the whole run.
+    pieces : int
+        Of the whole run.
     done, halvings : int
     """
 
     duration: float
-    count: int
+    pieces: int
     done: int = 0
     halvings: int = 0
 
     def ahead(self, t: float) -> Iterator[_Step]:
         """Yield the steps from the time t [s] on, as they are if none fails."""
         now = self
-        while now.done < now.count:
-            left = now.duration * (now.done + 1) / now.count - t
-            piece = now.duration / now.count * 0.5**now.halvings
+        while now.done < now.pieces:
+            left = now.duration * (now.done + 1) / now.pieces - t
+            piece = now.duration / now.pieces * 0.5**now.halvings
             whole = left < 1.5 * piece  # no step of what round-off leaves
             if whole:
                 now = now._replace(done=now.done + 1, halvings=max(0, now.halvings - 1))
@@ -251,8 +251,8 @@ class _Record:
         now = np.minimum(last + 1, len(reached) - 1)
         dt = steps.time[now] - steps.time[last]
         s = ((t - steps.time[last]) / np.where(dt > 0.0, dt, 1.0))[:, None]
-        slopes = (dt[:, None] * steps.rates[row] for row in (last, now))
-        self._states.append(cubic(steps.states[last], steps.states[now], *slopes, s)[0])
+        first, final = dt[:, None] * steps.rates[last], dt[:, None] * steps.rates[now]
+        self._states.append(cubic(steps.states[last], steps.states[now], first, final, s)[0])
         self._outputs.append(steps.outputs[last] + s * (steps.outputs[now] - steps.outputs[last]))
         self._count = end
 

@@ -302,9 +302,8 @@ def test_steps_of_the_compiled_loop_that_fail_are_halved(rest):
     np.testing.assert_allclose(runs[0]["y"], runs[1]["y"], rtol=0.0, atol=1e-9 * c)
     fallen = []
     for kind in (JFOFilm, InPython):
-        thrown = rotor(rest, static_force=(0.0, -4e5))
+        thrown, film = rotor(rest, static_force=(0.0, -4e5)), kind(bearing=BEARING, cells=(24, 4))
         with pytest.raises(ContactError, match="journal reached the wall") as caught:
-            film = kind(bearing=BEARING, cells=(24, 4))
             simulate(thrown, film, duration=TURN, samples=99, max_step=TURN / 32)
         fallen.append(caught.value)
     assert str(fallen[0]) == str(fallen[1])
