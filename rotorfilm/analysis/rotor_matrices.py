@@ -277,7 +277,7 @@ class LeftOut:
         self.felt = felt @ shapes
         self.seen = self.places @ shapes
         starts, ends = (
-            _unbalanced(np.hstack([first, *(piece @ shapes for piece in matrices), felt.T]), shapes, heavy)
+            unbalanced(np.hstack([first, *(piece @ shapes for piece in matrices), felt.T]), shapes, heavy)
             for first, matrices in ((loads, pieces), (self.places.T, [piece.T for piece in pieces]))
         )
         self.energies = ends.T @ model.answer(starts)
@@ -338,7 +338,7 @@ def _weights(speed: float, frequency: float) -> list[complex]:
     return [s**2, s, s * speed, 1.0, speed, (1.0 - share) * np.sign(speed), 1j * share]
 
 
-def _unbalanced(forces: Array, shapes: Array, heavy: Array) -> Array:
+def unbalanced(forces: Array, shapes: Array, heavy: Array) -> Array:
     """Return forces less what the shapes take of them: nothing is lost of those that no shape feels."""
     return np.asarray(forces - heavy @ (shapes.T @ forces))
 
