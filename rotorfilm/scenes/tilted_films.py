@@ -41,7 +41,6 @@ class TiltLevelFilm(FilmCandidate):
     """A level of a tilted journal that may answer, and the film over the whole length beside it.
 
     Both are reactions of a `MomentCarryingJournal`, or of a `HeldTilt` of one.
-
     """
 
     bound_name: ClassVar[str] = "twice the estimate of what a tilt makes"
