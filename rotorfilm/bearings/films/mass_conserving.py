@@ -140,7 +140,8 @@ def conserved_cells(
     first = np.concatenate([[0], np.cumsum(counts)])
     lines = int(first[-1])
     angle = [piece.start + piece.extent * np.arange(n) / n for piece, n in zip(pieces, counts, strict=True)]
-    width = _widths(sorted({one.share for one in (*openings, *geometry.recesses)} | {1.0}), along)
+    ends = {span.share for span in openings} | {sunk.share for sunk in geometry.recesses} | {1.0}
+    width = _widths(sorted(ends), along)
     middle = np.cumsum(width) - 0.5 * width
     opening = np.full((lines, len(width)), FILM, dtype=np.int32)
     for k, span in enumerate(openings):
@@ -148,14 +149,14 @@ def conserved_cells(
         held = np.arange(start, start + _lines_of(span, pieces, counts)) % lines
         opening[np.ix_(held, middle < span.share)] = k
     spacing = np.repeat([p.extent / n for p, n in zip(pieces, counts, strict=True)], counts)
-    lines, depth = np.concatenate(angle), None
+    theta, depth = np.concatenate(angle), None
     if geometry.recesses:
-        depth = sum(sunk.depth_at(lines + 0.5 * spacing, middle) for sunk in geometry.recesses)
+        depth = np.sum([sunk.depth_at(theta + 0.5 * spacing, middle) for sunk in geometry.recesses], axis=0)
     if whole:
         width = 0.5 * np.concatenate([width[::-1], width])
         opening = np.hstack([opening[:, ::-1], opening])
         depth = None if depth is None else np.hstack([depth[:, ::-1], depth])
-    return ConservedCells(lines, spacing, width, opening, geometry.circumferential, whole, depth=depth)
+    return ConservedCells(theta, spacing, width, opening, geometry.circumferential, whole, depth=depth)
 
 
 def _lines_of(span: Span, pieces: list[Span], counts: list[int]) -> int:

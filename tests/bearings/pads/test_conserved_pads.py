@@ -114,7 +114,7 @@ def test_full_films_come_to_reynolds_with_second_order(kind):
         found.append([*state.force, state.friction_torque, state.side_flow])
     coarse, finer = np.array(found)
     size = np.array([np.hypot(*expected[:2])] * 2 + [*expected[2:]])
-    assert finer[3] == pytest.approx(expected[3], rel=5e-3)  # of first order at the corners of a recess
+    assert finer[3] == pytest.approx(expected[3], rel=1e-2)  # of first order at corners
     assert_allclose(((4.0 * finer - coarse) / 3.0 - expected)[:3] / size[:3], 0.0, atol=5e-4)
     coarse, finer = ((one - expected)[:2] for one in (coarse, finer))
     assert np.hypot(*coarse) / np.hypot(*finer) == pytest.approx(4.0, rel=0.25)
