@@ -52,12 +52,12 @@ def compute_reference(recipe: Any) -> NDArray:
     """Return the reference table, computed by calling the model itself."""
     model = as_exported(recipe.model())
     time, inputs = recipe.stimulus()
-    states = _states(model, time, inputs)
+    states = held_states(model, time, inputs)
     outputs = [model.output(t, x, u) for t, x, u in zip(time, states, inputs, strict=True)]
     return np.column_stack([time, inputs, np.array(outputs)])
 
 
-def _states(model: Any, time: NDArray, inputs: NDArray) -> list[NDArray]:
+def held_states(model: Any, time: NDArray, inputs: NDArray) -> list[NDArray]:
     """Return the state at each time, integrated by another method than the FMU's."""
     if not model.states:
         return [np.zeros(0)] * len(time)

@@ -194,6 +194,7 @@ else:
 offer("plot_result", f"{__name__}.charts")  # which `plot()` of results calls
 offer("TabulatedBearing", f"{__name__}.bearings")  # which `coefficient_table` makes
 offer("simulate_rotor", f"{__name__}.analysis")  # which the reference of an FMU calls
+offer("whirl_verdict", f"{__name__}.analysis")  # which a printed run calls
 offer("ask", f"{__name__}.questions")  # which scenes with a question call
 offer("report_scene", f"{__name__}.reports")  # which `report()` of scenes calls
 offer("ladders_of", f"{__name__}.questions")  # which a new scene lists

@@ -53,9 +53,11 @@ if TYPE_CHECKING:
         vibration_limit as vibration_limit,
     )
     from .closed_loop import (
+        DeflectedShape as DeflectedShape,
         base_response as base_response,
         base_system as base_system,
         closed_loop as closed_loop,
+        deflected_shape as deflected_shape,
         receptance as receptance,
         rotor_system as rotor_system,
         rotor_transmissibility as rotor_transmissibility,
@@ -117,9 +119,14 @@ if TYPE_CHECKING:
         RunAmplitudes as RunAmplitudes,
         RunOrbits as RunOrbits,
         RunSpectra as RunSpectra,
+        RunSpectrum as RunSpectrum,
+        RunWhirl as RunWhirl,
         run_amplitudes as run_amplitudes,
         run_orbits as run_orbits,
         run_spectra as run_spectra,
+        run_spectrum as run_spectrum,
+        run_whirl as run_whirl,
+        whirl_verdict,
     )
     from .shaft_statics import (
         ShaftStatics as ShaftStatics,

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import block_diag, lu_factor, lu_solve
 
 from ..core.errors import (
@@ -22,9 +22,10 @@ from ..core.errors import (
 from ..core.inputs import arguments
 from ..core.model import Array, Dynamic, Linearization, Model
 from ..core.port import Bearings, Reaction, freedoms_of, inertial, mass_of, require_reaction, require_turning
+from ..core.readable import Drawable
 from ..core.results import Coefficients, Equilibrium, InertialCoefficients, added_mass
 from ..core.signals import force_names, indices, names
-from ..rotors import FlexibleRotor, ShaftRotor, Station, require_flexible, translations
+from ..rotors import FlexibleRotor, Probe, ShaftRotor, Station, require_flexible, translations
 from ..rotors.mounted import Mount, join
 from ..rotors.structure import force_rows, freedom_rows, output_rows, station_name, station_names
 from .equilibrium import equilibrium
@@ -274,6 +275,49 @@ def receptance(
     columns = [system.input_labels.index(name) for name in inputs]
     values = system(1j * grid, squeeze=False)[np.ix_(rows, columns)]
     return frequency_response(list(np.moveaxis(values, -1, 0)), grid, inputs, outputs, "receptance")
+
+
+@dataclass(frozen=True, kw_only=True)
+class DeflectedShape(Drawable):
+    """The response of a shaft to its unbalance at one speed, along the shaft (operating deflected shape).
+
+    Attributes
+    ----------
+    positions : ndarray, shape (n,) [m]
+        Places of the nodes along the shaft.
+    x, y : ndarray of complex, shape (n,) [m]
+        Phasors at exp(i speed t), zero-to-peak, about the static equilibrium.
+    bearings : ndarray, shape (m,) [m]
+        Places of the stations.
+    speed : float [rad/s]
+    """
+
+    positions: Array
+    x: NDArray[np.complex128]
+    y: NDArray[np.complex128]
+    bearings: Array
+    speed: float
+
+
+@arguments
+def deflected_shape(rotor: ShaftRotor, bearings: Bearings, speed: float) -> DeflectedShape:
+    """Return the response of all nodes of a shaft to its unbalance at a speed, which `plot` draws.
+
+    Parameters
+    ----------
+    rotor : ShaftRotor
+        Shaft with an unbalance.
+    bearings, speed
+        As in `unbalance_response`, whose errors and warnings these are.
+    """
+    require_kind("rotor", rotor, ShaftRotor, "a ShaftRotor")
+    nodes = [f"node_{k}" for k in range(len(rotor.positions))]
+    seen = replace(rotor, probes=tuple(Probe(node=k, name=name) for k, name in enumerate(nodes)))
+    response = unbalance_response(seen, bearings, [speed])
+    rows = [[response.output_labels.index(f"{name}_{axis}") for name in nodes] for axis in "xy"]
+    x, y = np.asarray(response.frdata)[rows, 0, 0]
+    held = rotor.positions[[station.node for station in rotor.stations]]
+    return DeflectedShape(positions=rotor.positions, x=x, y=y, bearings=held, speed=speed)
 
 
 BASE = ("base_acceleration_x", "base_acceleration_y")

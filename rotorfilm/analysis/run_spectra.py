@@ -1,10 +1,10 @@
-"""What a run says over speed: overall and 1x amplitude, spectra with forward and backward whirl, orbits."""
+"""What a run says: amplitudes over speed, spectra, orbits, and whether whirl grows at constant speed."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 import numpy as np
@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..core.errors import InputError, require_count, require_finite
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.readable import Drawable
+from ..core.readable import Drawable, Readable
 from ..core.results import Trajectory
 from ..rotors import SpeedProfile
 from .unbalance_margins import fitted_phasors
@@ -104,6 +104,59 @@ class RunOrbits(Drawable):
     _along: ClassVar[str] = "n"
 
 
+@dataclass(frozen=True, kw_only=True)
+class RunSpectrum(Drawable):
+    """One-sided spectrum of a signal of a run (discrete Fourier transform).
+
+    Attributes
+    ----------
+    frequency : ndarray, shape (n,) [rad/s]
+    signal_amplitude : ndarray, shape (n,) [m]
+        Zero-to-peak: a sine of amplitude a has a line of height a.
+    peak : float [m]
+        Largest distance from the mean, zero-to-peak.
+    rms : float [m]
+        Root of the mean square about the mean.
+    signal : str
+        Name of the signal.
+    units : dict of str to str
+        Of signal_amplitude, peak and rms, those of the signal.
+    """
+
+    frequency: Array
+    signal_amplitude: Array
+    peak: float
+    rms: float
+    signal: str
+    units: dict[str, str] = field(default_factory=dict)
+
+    def _own_units(self) -> dict[str, str]:
+        return self.units
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunWhirl(Readable):
+    """Whirl in the second half of a run at constant speed: what does not repeat with each turn of the shaft.
+
+    Attributes
+    ----------
+    whirl_radius : float [m]
+        Radius of the whirl in the last window, of equal mean square.
+    growth_rate : float [1/s]
+        Growth of its logarithm; negative where it dies out.
+    whirl_ratio : float or None [1]
+        Frequency / speed of the strongest line, negative for backward whirl; None without whirl.
+    station : str
+    verdict : str
+    """
+
+    whirl_radius: float
+    growth_rate: float
+    whirl_ratio: float | None
+    station: str
+    verdict: str
+
+
 Speed = SpeedProfile | float | None
 
 
@@ -182,30 +235,161 @@ def run_spectra(
     """
     require_count("windows", windows)
     prefix = f"{station}_" if station else station_of(run)
-    kept = run.time >= start
-    within = run.time[kept]
-    time = np.linspace(within[0], within[-1], within.size) if within.size else within
+    time, (x, y) = _even(run, [f"{prefix}{axis}" for axis in "xy"], start)
     length = 2 * time.size // (windows + 1)
     if length < LEAST:
         raise InputError(f"windows must have {LEAST} samples at least, got {windows} of {length}")
-    x, y = (np.interp(time, run.time, _series(run, f"{prefix}{axis}")) for axis in "xy")
     whirl = x + 1j * y
     known = speed is not None or "speed" in run.signals
     turning = np.interp(time, run.time, _turning(run, speed)[0]) if known else np.full(time.size, math.nan)
     places = np.arange(windows)[:, None] * (length // 2) + np.arange(length)
-    window, step = np.hanning(length + 2)[1:-1], (time[-1] - time[0]) / (time.size - 1)
-    pieces = whirl[places] - whirl[places].mean(axis=1, keepdims=True)
-    lines = np.fft.fft(pieces * window, PADDED * length) / window.sum()
-    frequency = np.fft.fftshift(2.0 * np.pi * np.fft.fftfreq(PADDED * length, step))
+    frequency, lines = _lines(time, whirl[places])
     highest = ORDERS * np.abs(turning).max() if known and np.any(turning) else math.inf
     shown = np.abs(frequency) <= highest
     return RunSpectra(
         time=time[places].mean(axis=1),
         speed=turning[places].mean(axis=1),
         frequency=frequency[shown],
-        whirl_amplitude=np.abs(np.fft.fftshift(lines, axes=1))[:, shown],
+        whirl_amplitude=lines[:, shown],
         station=prefix.strip("_"),
     )
+
+
+def _even(run: Trajectory, signals: Sequence[str], start: float) -> tuple[Array, list[Array]]:
+    """Return even times from a start on, and signals there, interpolated linearly."""
+    within = run.time[run.time >= start]
+    time = np.linspace(within[0], within[-1], within.size) if within.size else within
+    return time, [np.interp(time, run.time, _series(run, name)) for name in signals]
+
+
+def _lines(time: Array, pieces: ArrayLike) -> tuple[Array, Array]:
+    """Return rising frequencies [rad/s] and the height of the lines of pieces (..., n) without their mean."""
+    rows = np.asarray(pieces)
+    length, step = rows.shape[-1], (time[-1] - time[0]) / (time.size - 1)
+    window = np.hanning(length + 2)[1:-1]
+    lines = np.fft.fft((rows - rows.mean(axis=-1, keepdims=True)) * window, PADDED * length) / window.sum()
+    frequency = np.fft.fftshift(2.0 * np.pi * np.fft.fftfreq(PADDED * length, step))
+    return frequency, np.abs(np.fft.fftshift(lines, axes=-1))
+
+
+@arguments
+def run_spectrum(run: Trajectory, signal: str = "", start: float = -math.inf) -> RunSpectrum:
+    """Return the one-sided spectrum of one signal of a run, with its peak and root mean square.
+
+    Parameters
+    ----------
+    run : Trajectory
+        Run whose samples, if not evenly spaced, are interpolated linearly.
+    signal : str
+        Any signal of the run; the first displacement along x by default.
+    start : float [s]
+        Time from which on it is taken, as the end of a transient; the start of the run by default.
+
+    Raises
+    ------
+    InputError
+        If the signal is not there, or has less than 8 samples.
+
+    Notes
+    -----
+    The window is that of von Hann, so that a line is three steps of frequency wide.
+    """
+    name = signal or f"{station_of(run)}x"
+    time, (values,) = _even(run, [name], start)
+    if time.size < LEAST:
+        raise InputError(f"start must leave {LEAST} samples at least, got {start!r} s and {time.size}")
+    frequency, lines = _lines(time, values)
+    moved, upper = values - values.mean(), frequency >= 0.0
+    return RunSpectrum(
+        frequency=frequency[upper],
+        signal_amplitude=2.0 * lines[upper],
+        peak=float(np.abs(moved).max()),
+        rms=float(np.sqrt(np.mean(moved**2))),
+        signal=name,
+        units=dict.fromkeys(("signal_amplitude", "peak", "rms"), run.units.get(name, "m")),
+    )
+
+
+HARMONICS, WINDOWS, TURNS = 3, 8, 2
+"""Multiples of the speed that belong to a turn, windows of the second half of a run, their least turns."""
+
+FAINT, NOISE, LASTING, STRAIGHT = 1e-3, 1e-6, 0.05, 0.9
+"""Share of the motion below which no whirl is told, and no growth; change over the half that counts as
+none; least correlation of growing whirl with an exponential."""
+
+
+@arguments
+def run_whirl(run: Trajectory, station: str = "", speed: Speed = None) -> RunWhirl:
+    """Return what a run at constant speed shows of whirl: whether it grows, lasts or dies out.
+
+    In each of eight windows, mean and three harmonics of the speed are fitted to x + i y; the rest is whirl.
+    A run shows the whirl that something sets going: one that rests exactly in its equilibrium shows none,
+    and `rotor_modes` or `whirl_threshold` tell of its stability.
+
+    Parameters
+    ----------
+    run : Trajectory
+    station : str
+        As in `run_spectra`.
+    speed : float [rad/s], optional
+        Speed of the run; its signal `speed` by default.
+
+    Raises
+    ------
+    InputError
+        If the speed changes or is 0, or the second half has less than 16 turns of 8 samples.
+    """
+    prefix = f"{station}_" if station else station_of(run)
+    whirl = _series(run, f"{prefix}x") + 1j * _series(run, f"{prefix}y")
+    turning, angle = _turning(run, speed)
+    if not turning.size or np.ptp(turning) > NOISE * np.abs(turning).max() or not turning[0]:
+        raise InputError("run must be at a constant speed that is not 0")
+    half = run.time >= 0.5 * (run.time[0] + run.time[-1])
+    turns = abs(angle[-1] - angle[half][0]) / (2.0 * math.pi)
+    if turns < WINDOWS * TURNS or half.sum() < LEAST * turns:
+        raise InputError(
+            f"run must have {WINDOWS * TURNS} turns of {LEAST} samples in its second half, "
+            f"got {turns:.3g} of {half.sum() / turns:.3g}"
+        )
+    pieces = [_not_synchronous(angle[at], whirl[at]) for at in np.array_split(np.flatnonzero(half), WINDOWS)]
+    sizes = np.array([float(np.sqrt(np.mean(np.abs(one) ** 2))) for one in pieces])
+    size, span = float(np.abs(whirl - whirl.mean()).max()), float(np.ptp(run.time[half]))
+    time = np.arange(WINDOWS) * span / WINDOWS
+    logs = np.log(np.maximum(sizes, np.finfo(float).tiny))
+    rate = float(np.polyfit(time, logs, 1)[0])
+    frequency, lines = _lines(run.time[half], _not_synchronous(angle[half], whirl[half]))
+    ratio: float | None = float(frequency[lines.argmax()] / turning[0])
+    grows = rate * span > LASTING and np.corrcoef(time, logs)[0, 1] > STRAIGHT
+    seen = f"{sizes[-1] * 1e6:.3g} um at {ratio:.3g} of the speed"
+    if size <= NOISE**2 + 1e-9 * float(np.abs(whirl).max()):
+        verdict = "nothing moves the rotor from its rest, so that this run does not show whether whirl grows"
+    elif grows and sizes[-1] > NOISE * size:
+        verdict = f"grows at {rate:.3g} 1/s, {seen} at the end"
+    elif sizes[-1] < FAINT * size:
+        verdict, ratio = "none: the motion repeats with each turn", None
+    else:
+        verdict = f"dies out at {-rate:.3g} 1/s" if rate * span < -LASTING else f"lasts, {seen}"
+    return RunWhirl(
+        whirl_radius=float(sizes[-1]),
+        growth_rate=rate,
+        whirl_ratio=ratio,
+        station=prefix.strip("_"),
+        verdict=verdict,
+    )
+
+
+def whirl_verdict(run: Trajectory) -> str:
+    """Return the verdict of `run_whirl`; empty where a run has none."""
+    try:
+        return run_whirl(run).verdict
+    except InputError:
+        return ""
+
+
+def _not_synchronous(angle: Array, whirl: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    """Return what mean and harmonics of the speed leave of a motion x + i y."""
+    columns = np.exp(1j * np.outer(angle, np.arange(-HARMONICS, HARMONICS + 1)))
+    return np.asarray(whirl - columns @ np.linalg.lstsq(columns, whirl, rcond=None)[0])
 
 
 @arguments

@@ -76,6 +76,7 @@ if TYPE_CHECKING:
         plot_full_spectrum as plot_full_spectrum,
         plot_run_amplitudes as plot_run_amplitudes,
         plot_run_orbits as plot_run_orbits,
+        plot_run_spectrum as plot_run_spectrum,
         plot_spectrogram as plot_spectrogram,
         plot_time_windows as plot_time_windows,
         plot_trajectory as plot_trajectory,
@@ -83,6 +84,8 @@ if TYPE_CHECKING:
     )
     from .shaft_charts import (
         plot_bearing as plot_bearing,
+        plot_deflected_orbits as plot_deflected_orbits,
+        plot_deflected_shape as plot_deflected_shape,
         plot_mode_orbits as plot_mode_orbits,
         plot_mode_shape as plot_mode_shape,
         plot_rotor as plot_rotor,
@@ -97,6 +100,7 @@ if TYPE_CHECKING:
     from .whirl_verdicts import (
         plot_journal_stability as plot_journal_stability,
         plot_thresholds as plot_thresholds,
+        verdict_table as verdict_table,
     )
 else:
     show(__name__)

@@ -43,10 +43,11 @@ from .run_charts import (
     plot_full_spectrum,
     plot_run_amplitudes,
     plot_run_orbits,
+    plot_run_spectrum,
     plot_spectrogram,
     plot_waterfall,
 )
-from .shaft_charts import plot_rotor
+from .shaft_charts import plot_deflected_orbits, plot_deflected_shape, plot_rotor
 
 GRAM_MILLIMETER = 1e-6
 
@@ -243,6 +244,8 @@ PICTURES: dict[str, dict[str, Describe]] = {
         "full_spectrum": plot_full_spectrum,
     },
     "RunOrbits": {"orbits": plot_run_orbits},
+    "RunSpectrum": {"spectrum": plot_run_spectrum},
+    "DeflectedShape": {"shape": plot_deflected_shape, "orbits": plot_deflected_orbits},
     "Campbell": _MODES,
     "RotorAnswer": {
         "campbell": lambda found: plot_campbell(found.campbell, critical=found.critical_speeds),

@@ -8,7 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from ..analysis import RunAmplitudes, RunOrbits, RunSpectra, run_amplitudes, run_orbits, run_spectra
+from ..analysis import (
+    RunAmplitudes,
+    RunOrbits,
+    RunSpectra,
+    RunSpectrum,
+    run_amplitudes,
+    run_orbits,
+    run_spectra,
+    run_spectrum,
+)
 from ..analysis.run_spectra import station_of
 from ..core.readable import label_of
 from ..core.results import Trajectory
@@ -127,6 +136,16 @@ def plot_full_spectrum(found: RunSpectra, window: int = -1) -> Picture:
     return Picture((PicturePanel(marks, *text, f"Full spectrum{speed}"),), size=(7.4, 4.4))
 
 
+def plot_run_spectrum(found: RunSpectrum) -> Picture:
+    """Describe the one-sided spectrum of a signal, with its peak and root mean square in the title."""
+    unit = found.units.get("signal_amplitude", "m")
+    factor, unit = (1e6, "um") if unit == "m" else (1.0, unit)
+    marks = [CurveMark(found.frequency / HERTZ, factor * found.signal_amplitude)]
+    title = f"{label_of(found.signal)}: peak {factor * found.peak:.4g}, rms {factor * found.rms:.4g} {unit}"
+    text = "frequency [Hz]", f"amplitude, zero-to-peak [{unit}]", title
+    return Picture((PicturePanel(marks, *text),), size=(7.4, 4.4))
+
+
 def plot_run_orbits(found: RunOrbits) -> Picture:
     """Describe orbits at some speeds, a dot where the shaft passes the angle of t = 0 (keyphasor)."""
     panels = []
@@ -177,6 +196,7 @@ RUNS: dict[str, Callable[[Any], Picture]] = {
     "waterfall": lambda run: plot_waterfall(run_spectra(run)),
     "spectrogram": lambda run: plot_spectrogram(run_spectra(run, windows=100)),
     "full_spectrum": lambda run: plot_full_spectrum(run_spectra(run, windows=5)),
+    "spectrum": lambda run: plot_run_spectrum(run_spectrum(run)),
     "orbits": orbits_over_run,
     "windows": plot_time_windows,
 }

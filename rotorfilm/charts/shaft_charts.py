@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..analysis import RotorModes
+from ..analysis import DeflectedShape, RotorModes
 from ..analysis.rotor_modes import senses
 from ..bearings.films.geometry import Pad
 from ..core.errors import InputError
@@ -186,16 +186,7 @@ def plot_mode_shape(rotor: ShaftRotor, modes: RotorModes, number: int) -> Pictur
     InputError
         If there is no such mode.
     """
-    x, y = _shape(rotor, modes, number)
-    nodes = [station.node for station in rotor.stations]
-    marks: list[Mark] = [
-        CurveMark(rotor.positions, x.real, "x", "#1f4fb4", marker="o", size=3.0),
-        CurveMark(rotor.positions, y.real, "y", "#d62728", "--", marker="s", size=3.0),
-        CurveMark(rotor.positions[nodes], np.zeros(len(nodes)), "bearing", "k", "", marker="^"),
-        LevelMark(0.0),
-    ]
-    text = "along the shaft [m]", "deflection / the largest", _titled(modes, number)
-    return Picture((PicturePanel(marks, *text),))
+    return _in_planes(_mode(rotor, modes, number))
 
 
 @arguments
@@ -209,38 +200,68 @@ def plot_mode_orbits(rotor: ShaftRotor, modes: RotorModes, number: int) -> Pictu
     rotor, modes, number
         As in `plot_mode_shape`.
     """
-    x, y = _shape(rotor, modes, number)
+    return _in_space(_mode(rotor, modes, number))
+
+
+def plot_deflected_shape(found: DeflectedShape) -> Picture:
+    """Describe the response to unbalance along a shaft [um] at the moment of its largest deflection."""
+    return _in_planes(_response(found))
+
+
+def plot_deflected_orbits(found: DeflectedShape) -> Picture:
+    """Describe the same in space, with the orbits of the nodes, as `plot_mode_orbits` does."""
+    return _in_space(_response(found))
+
+
+class _Shape(NamedTuple):
+    """Deflections of the nodes as phasors, turned to where the largest is real."""
+
+    positions: np.ndarray
+    bearings: np.ndarray
+    x: np.ndarray
+    y: np.ndarray
+    speed: float
+    unit: str
+    title: str
+
+
+def _in_planes(one: _Shape) -> Picture:
+    marks: list[Mark] = [
+        CurveMark(one.positions, one.x.real, "x", "#1f4fb4", marker="o", size=3.0),
+        CurveMark(one.positions, one.y.real, "y", "#d62728", "--", marker="s", size=3.0),
+        CurveMark(one.bearings, 0.0 * one.bearings, "bearing", "k", "", marker="^"),
+        LevelMark(0.0),
+    ]
+    return Picture((PicturePanel(marks, "along the shaft [m]", f"deflection {one.unit}", one.title),))
+
+
+def _in_space(one: _Shape) -> Picture:
     turn = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 73))
     marks: list[Mark] = [
-        CurveMark(rotor.positions, x.real, "shaft", "k", width=2.0, z=y.real, marker="o", size=3.0)
+        CurveMark(one.positions, one.x.real, "shaft", "k", width=2.0, z=one.y.real, marker="o", size=3.0)
     ]
     told = set()
-    for place, a, b in zip(rotor.positions, x, y, strict=True):
-        if abs(a) + abs(b) < _STILL:
+    largest = np.sqrt(np.abs(one.x) ** 2 + np.abs(one.y) ** 2).max()
+    for place, a, b in zip(one.positions, one.x, one.y, strict=True):
+        if abs(a) + abs(b) <= _STILL * largest:
             continue
-        forward = (np.conj(a) * b).imag <= 0.0
-        if modes.speed < 0.0:
-            forward = not forward
+        forward = ((np.conj(a) * b).imag <= 0.0) != (one.speed < 0.0)
         label, color = ("forward", "C0") if forward else ("backward", "C3")
-        marks.append(
-            CurveMark(
-                np.full(73, place),
-                (a * turn).real,
-                "" if label in told else label,
-                color,
-                width=0.9,
-                z=(b * turn).real,
-            )
-        )
+        orbit = np.full(73, place), (a * turn).real, "" if label in told else label, color
+        marks.append(CurveMark(*orbit, width=0.9, z=(b * turn).real))
         told.add(label)
-    ends, none = rotor.positions[[0, -1]], np.zeros(2)
+    ends, none, held = one.positions[[0, -1]], np.zeros(2), 0.0 * one.bearings
     marks.append(CurveMark(ends, none, "", "0.5", "-.", 1.0, z=none))
-    stations = rotor.positions[[station.node for station in rotor.stations]]
-    marks.append(
-        CurveMark(stations, 0.0 * stations, "bearing", "C2", "", marker="^", size=8.0, z=0.0 * stations)
-    )
-    text = "along the shaft [m]", "x / the largest", _titled(modes, number), "y / the largest"
+    marks.append(CurveMark(one.bearings, held, "bearing", "C2", "", marker="^", size=8.0, z=held))
+    text = "along the shaft [m]", f"x {one.unit}", one.title, f"y {one.unit}"
     return Picture((PicturePanel(marks, *text),), size=(8.4, 6.0))
+
+
+def _response(found: DeflectedShape) -> _Shape:
+    turn = 1e6 * _turn(found.x, found.y)
+    title = f"Response to unbalance at {found.speed / RPM:.0f} rpm, zero-to-peak"
+    places = found.positions, found.bearings, turn * found.x, turn * found.y
+    return _Shape(*places, found.speed, "[um]", title)
 
 
 def _titled(modes: RotorModes, number: int) -> str:
@@ -251,14 +272,16 @@ def _titled(modes: RotorModes, number: int) -> str:
     )
 
 
-def _shape(rotor: ShaftRotor, modes: RotorModes, number: int) -> tuple[np.ndarray, np.ndarray]:
+def _mode(rotor: ShaftRotor, modes: RotorModes, number: int) -> _Shape:
     """Return the deflections of the nodes along x and y, real where they are largest, there 1."""
     if not 0 <= number < len(modes.eigenvalues):
         raise InputError(f"number must be from 0 to {len(modes.eigenvalues) - 1}, got {number!r}")
     n, nodes = len(rotor.assembly.coordinates), 2 * (len(rotor.elements) + 1)
     x, y = (modes.shapes[k : k + nodes : 2, number] for k in (0, n))
     turn = _turn(x, y) / np.sqrt(np.abs(x) ** 2 + np.abs(y) ** 2).max()
-    return x * turn, y * turn
+    held = rotor.positions[[station.node for station in rotor.stations]]
+    title = _titled(modes, number)
+    return _Shape(rotor.positions, held, turn * x, turn * y, modes.speed, "/ the largest", title)
 
 
 def _turn(x: np.ndarray, y: np.ndarray) -> complex:

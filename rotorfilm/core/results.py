@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from .errors import RotorfilmError, require_each, require_finite
 from .readable import Drawable, Item, Readable, Row, rows_of
 from .signals import FREEDOMS, PLANAR
+from .sources import offered
 
 Array = NDArray[np.float64]
 
@@ -338,6 +339,11 @@ class Trajectory(Drawable):
 
     def _own_units(self) -> dict[str, str]:
         return self.units
+
+    def to_rows(self) -> list[Row]:
+        """Return names and values with their units, and what `run_whirl` says of a run at constant speed."""
+        verdict = offered("whirl_verdict")(self)
+        return super().to_rows() + [("whirl", verdict)] * bool(verdict)
 
     def __getitem__(self, name: str) -> Array:
         """Return the series of one signal, shape (n,)."""

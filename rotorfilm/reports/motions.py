@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from ..analysis import whirl_verdict
 from ..core.errors import InputError
 from ..core.progress import Report
 from ..core.readable import Plottable, Row
@@ -108,7 +109,7 @@ def damper_motion(run: DamperRun) -> FollowedMotion:
 
 def rotor_motion(run: RotorRun) -> FollowedMotion:
     """Return what a run of a rotor on its films says."""
-    failure = None
+    failure, whirl = None, whirl_verdict(run.trajectory)
     if run.contact_time is not None:
         failure = f"a journal reached the wall at {run.contact_time:.6g} s; what is shown ends there"
     data = {
@@ -117,6 +118,7 @@ def rotor_motion(run: RotorRun) -> FollowedMotion:
         "vibrations": dict(run.vibrations),
         "vibration_speeds": dict(run.vibration_speeds),
         "end_speed": run.end_speed,
+        "whirl": whirl or None,
         "contact_time": run.contact_time,
         "end": float(run.trajectory.time[-1]),
         "work": dict(run.trajectory.work),
@@ -138,6 +140,7 @@ def rotor_motion(run: RotorRun) -> FollowedMotion:
             )
             for name, size in run.vibrations.items()
         ),
+        *[("whirl", whirl)] * bool(whirl),
         *_ending(run.contact_time, run.trajectory),
     ]
     return FollowedMotion(data, rows, run.trajectory, run.trajectory, failure)

@@ -37,7 +37,7 @@ MOVING = ("blade_loss", "run_up", "motor", "ground")
 """Excitations that are followed over time."""
 
 AGAINST_SPEED = ("amplitude", "waterfall", "spectrogram", "orbits")
-STEADY = ("orbit", "windows", "full_spectrum")
+STEADY = ("orbit", "windows", "spectrum", "full_spectrum")
 """Pictures of a run whose speed changes, and of another."""
 
 SHAPES = 3
@@ -324,6 +324,7 @@ def _rotor(
         blocks: list[Block] = [charts.plot_unbalance_response(answer.response, peak_to_peak=True)]
         if last:
             blocks += _checks(answer.response, bearings, (first, last))
+        blocks.append(charts.picture_of(analysis.deflected_shape(rotor, bearings, speed), "orbits"))
         yield ReportSection("Unbalance response", blocks)
     if compressor:
         yield ReportSection("Stability by API 617", list(_certified(answer, rotor, bearings, speed)))

@@ -1,5 +1,7 @@
 """One description of each picture, drawn by matplotlib and by plotly, and the numbers that are in it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -80,6 +82,14 @@ def whirl(sense, speed=100.0):
     return plot_mode_orbits(rotor, modes, 0)
 
 
+SPRING = rf.LinearBearing(stiffness=((1e7, 0.0), (0.0, 2e7)), damping=((1e3, 0.0), (0.0, 1e3)))
+SPRINGS = {"left": SPRING, "right": SPRING}
+
+
+def deflected():
+    return rf.analysis.deflected_shape(shaft(), SPRINGS, 150.0)
+
+
 def damper_curve():
     def orbit(speed, ratio, rate):
         return CircularOrbit(
@@ -149,8 +159,11 @@ PICTURES = {
     "full spectrum": plot_full_spectrum(run_spectra(RUN)),
     "orbits": plot_run_orbits(run_orbits(RUN, [100.0, 300.0])),
     "windows": plot_time_windows(RUN, [0.5, 3.0]),
+    "spectrum": picture_of(RUN, "spectrum"),
     "rotor": plot_rotor(shaft()),
     "mode in space": whirl(1.0),
+    "deflected shape": picture_of(deflected()),
+    "deflected orbits": picture_of(deflected(), "orbits"),
     "damper curve": picture_of(damper_curve()),
     "coefficients": picture_of(coefficient_table(FILM, (0.0, -525.0), [100.0, 200.0])),
     "tornado": plot_tornado({"clearance": (0.2, 0.4), "load": (0.31, 0.29)}, base=0.3, quantity="ratio [1]"),
@@ -325,3 +338,21 @@ def test_a_backend_is_chosen_once_and_pages_need_no_network(tmp_path):
     assert EVERY._repr_png_().startswith(b"\x89PNG")
     with pytest.raises(rf.InputError, match="backend must be one of"):
         use("gnuplot")
+
+
+@pytest.mark.closed_form
+def test_a_deflected_shape_is_the_response_of_its_nodes():
+    """It agrees with the receptance from the disk to every node, and lies along the largest deflection."""
+    found, rotor = deflected(), shaft()
+    seen = rf.analysis.receptance(rotor, SPRINGS, 150.0, [150.0], range(5)).frdata[:, :, 0]
+    push = 1e-4 * 150.0**2 * np.array([1.0, -1.0j])
+    np.testing.assert_allclose(seen[0::2, 4:6] @ push, found.x, rtol=1e-7)
+    np.testing.assert_allclose(seen[1::2, 4:6] @ push, found.y, rtol=1e-7)
+    panel = picture_of(found).panels[0]
+    along = np.hypot(panel.curves["x"].y, panel.curves["y"].y)
+    turn = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 721))
+    middle = np.hypot((found.x[2] * turn).real, (found.y[2] * turn).real).max()
+    assert along.max() == pytest.approx(1e6 * middle, rel=1e-4)
+    assert set(picture_of(found, "orbits").panels[0].curves) == {"shaft", "forward", "bearing"}
+    with pytest.raises(rf.InputError, match="rotor must have an unbalance"):
+        rf.analysis.deflected_shape(replace(rotor, unbalances=()), SPRINGS, 150.0)
