@@ -86,7 +86,7 @@ class FilmInMotion:
         """
         rate, by_s = self._wave(s)
         if self._cavity is not None:
-            return self._carried(self._cavity, s, rate, by_s)
+            return self._waved(self._cavity, s, rate, by_s)
         moved, held = self._slopes
         found = self._found(rate, moved + s * held, by_s, held)
         return found[:, : len(moved)], found[:, len(moved) :]
@@ -104,7 +104,7 @@ class FilmInMotion:
         """
         rate, by_s = (complex(s), 1.0) if as_stepped else self._wave(s)
         if self._cavity is not None:
-            return self._carried(self._cavity, s, rate, by_s)[0]
+            return self._waved(self._cavity, s, rate, by_s)[0]
         moved, held = self._slopes
         return self._found(rate, moved + s * held)
 
@@ -114,7 +114,7 @@ class FilmInMotion:
         They belong to motions slow against the time that oil takes to cross the cavity.
         """
         (moved, held), count = self._slopes, len(self._slopes[0])
-        dragged = self._dragged(self.state.solution.theta)[None]
+        dragged = self._by_speed[None]
         found = self._found(0.0, np.concatenate([moved, dragged]), 1.0, np.concatenate([held, 0.0 * dragged]))
         return found[:, :count], found[:, count + 1 : -1], -found[:, count] / self.scale
 
@@ -129,10 +129,10 @@ class FilmInMotion:
         So it answers at once, to a motion too quick for oil to cross the cavity. The state has no storage.
         """
         moved, held = self._slopes
-        solution, rate = self.state.solution, 2.0 * self.state.rate
+        solution = self.state.solution
         thinned = np.where(solution.full, 0.0, -solution.theta * self._widening())
-        moved = moved + rate * np.array([self._dragged(theta) for theta in thinned])
-        right = -np.concatenate([moved, held, self._dragged(solution.theta)[None]])
+        moved = moved + np.array([self._carried(theta) for theta in thinned])
+        right = -np.concatenate([moved, held, self._by_speed[None]])
         keeps = np.where(solution.full, 0.0, KEEPS * self.film.cells.area)
         right = np.where(solution.full, right, 0.0)
         return -self._force(oil_response(self.state.equations, solution.full, keeps, right))
@@ -144,7 +144,7 @@ class FilmInMotion:
             return None
         return cavity_of(self.state, self.state.gap.line * self.film.cells.area, self._slopes, self._force)
 
-    def _carried(self, cavity: Cavity, s: complex, rate: Any, by_s: Any) -> tuple[Complex, Complex]:
+    def _waved(self, cavity: Cavity, s: complex, rate: Any, by_s: Any) -> tuple[Complex, Complex]:
         """Return K(s) and dK/ds where the cavity stores at a rate, from what its waves do where it ends."""
         n, m = len(self._slopes[0]), len(cavity.inlet)
         first, second = waves(cavity, *(np.broadcast_to(one, (len(self._turns), 1)) for one in (rate, by_s)))
@@ -160,10 +160,10 @@ class FilmInMotion:
         return 2.0 * self.film.cells.extent[:, None]
 
     @cached_property
-    def _lines_dragged(self) -> Any:
-        """What of the speed drags the oil along, one number where it is the same everywhere."""
-        dragged = self.film.dragged
-        return dragged if np.ptp(dragged) else float(np.ravel(dragged)[0])
+    def _carrying(self) -> Any:
+        """Twice the speed with which the walls carry the oil, shape (N, M), or one where it is the same."""
+        rows = 2.0 * np.abs(self.state.equations.wedge) / (self.state.gap.face * self.film.cells.width)
+        return rows if np.ptp(rows) > 1e-12 * rows.max() else float(rows.max())
 
     @cached_property
     def _slopes(self) -> tuple[Array, Array]:
@@ -206,20 +206,23 @@ class FilmInMotion:
 
     def _wave(self, s: complex) -> tuple[Complex, Complex]:
         """Return what stands for s in the storage of the cavity, shape (N, M), and its derivative by s."""
-        speed = 2.0 * abs(self.state.rate) * self._lines_dragged
-        turn = complex(s) * self._turns
+        speed, turn = self._carrying, complex(s) * self._turns
         resolved = np.abs(turn) <= speed
         phase = np.where(resolved, turn, 0.0) / np.where(speed > 0.0, speed, 1.0)
         known = np.where(phase == 0.0, 1.0, phase)
         return s * np.where(phase == 0.0, 1.0, np.expm1(phase) / known), np.exp(phase)
 
-    def _dragged(self, theta: Array) -> Array:
-        """Return what leaves the cells by transport alone, per speed, shape (N, M)."""
-        film, equations, none = self.film, self.state.equations, np.zeros(theta.shape)
-        wedge = 0.5 * self.state.gap.face * film.dragged * film.cells.width
-        still = replace(
-            equations, wedge=wedge, around=none, store=none, along=np.zeros_like(equations.along), old=None
-        )
+    @cached_property
+    def _by_speed(self) -> Array:
+        """D outflow / d speed, shape (N, M)."""
+        equations = self.film.equations(self.state.gap, self.state.rate, by_rate=True)
+        solution = self.state.solution
+        return 0.5 * oil_outflow(equations, solution.pressure, solution.theta)
+
+    def _carried(self, theta: Array) -> Array:
+        """Return what leaves the cells by transport alone, shape (N, M)."""
+        equations, none = self.state.equations, np.zeros(theta.shape)
+        still = replace(equations, around=none, store=none, along=np.zeros_like(equations.along), old=None)
         return oil_outflow(still, none, theta)
 
     def _widening(self) -> Array:
@@ -751,7 +754,8 @@ class MassConserving(ConservedAtRest):
 
     def _inside(self, u: ArrayLike, when: str) -> Array:
         motion = contiguous(input_vector(u))
-        require_inside(motion[:2], self.clearance, when)
+        if self.film.cells.wall is None:  # else the library tells
+            require_inside(motion[:2], self.clearance, when)
         return motion
 
     def _require_fields(self, cavitation_pressure: float, submerged: bool) -> None:
@@ -789,7 +793,9 @@ def oil_spec(scaled: ScaledFilm) -> NativeSpec:
         *(scaled.cavitation_pressure, scaled.carrying, LARGEST_ANGLE, LARGEST_WAY),
         *(fed or given, fed, scaled.stiffness is not None),
     ]
-    tables: dict[str, Array] = {
+    tables: dict[str, Array] = {} if film.mobility is None else film.mobility.tables()
+    tables |= {name: row for name in ("wall", "depth") if (row := getattr(cells, name)) is not None}
+    tables |= {
         "film": np.array(numbers, dtype=float),
         "lines": np.vstack([cells.spacing[None], film.directions.reshape(4, -1)]),
         "width": cells.width,
