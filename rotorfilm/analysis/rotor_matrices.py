@@ -193,6 +193,9 @@ CONVERGED = 1e-12
 ROUNDED, PATIENCE = 1e-9, 6
 """The same after so many steps: roundoff of fine meshes is larger."""
 
+BESIDE = 1e-11
+"""Relative distance of a shift from an eigenvalue that is known: on it, the matrix may have a pivot of 0."""
+
 _STEPS = 25
 
 
@@ -244,7 +247,7 @@ def whirl_near(
     found, right, left = inverse_steps(system_at(shift), shift, load, load, 3)[-1]
     for step in range(_STEPS):
         before = found
-        found, right, left = inverse_steps(system_at(found), found * (1.0 + 1e-13), right, left, 1)[-1]
+        found, right, left = inverse_steps(system_at(found), found * (1.0 + BESIDE), right, left, 1)[-1]
         if abs(found - before) < (CONVERGED if step < PATIENCE else ROUNDED) * abs(found):
             return found, right, left
     raise ConvergenceError(f"whirl near {value:.6g} rad/s must be found by inverse iteration, and was not")

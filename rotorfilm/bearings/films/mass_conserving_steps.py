@@ -147,7 +147,8 @@ class FilmInMotion:
     def _waved(self, cavity: Cavity, s: complex, rate: Any, by_s: Any) -> tuple[Complex, Complex]:
         """Return K(s) and dK/ds where the cavity stores at a rate, from what its waves do where it ends."""
         n, m = len(self._slopes[0]), len(cavity.inlet)
-        first, second = waves(cavity, *(np.broadcast_to(one, (len(self._turns), 1)) for one in (rate, by_s)))
+        lines = np.ones((len(self._turns), 1))
+        first, second = waves(cavity, *(one * lines for one in (rate, by_s)))
         answer, felt = np.linalg.inv(np.eye(m) - first[:, :m]), cavity.felt
         moved = answer @ (first[:, m : m + n] + s * first[:, m + n :])
         late = first[:, m + n :] - second[:, m : m + n] - s * second[:, m + n :] - second[:, :m] @ moved
@@ -312,7 +313,7 @@ def cavity_of(
     right[len(inlets) :] = -np.concatenate(slopes).reshape(-1, lines * along)
     in_film = np.where(full.ravel(), right, 0.0).reshape(columns, lines, along)
     change = oil_response(e, state.solution.full, np.where(empty, KEEPS, 0.0), in_film)
-    change = np.where(full, change, 0.0)
+    change = np.where(full, change.real, 0.0)
     aside = np.zeros((columns, lines, 1))
     beside = np.concatenate([aside, change, aside], axis=2)
     arriving = np.roll(e.around, 1, axis=0) * np.roll(change, 1, axis=1) + e.around * np.roll(
