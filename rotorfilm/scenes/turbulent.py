@@ -10,7 +10,7 @@ from typing import Any
 from ..analysis import equilibrium
 from ..bearings.films.turbulence import CLOSURES, Turbulence, onset
 from ..bearings.journal import ExtrapolatedFilm, JFOFilm, JournalBearing, ReynoldsFilm
-from ..bearings.oil.oil import film_reynolds
+from ..bearings.oil.oil import DENSITY, film_reynolds
 from ..core.errors import RotorfilmError, SceneError, ValidityWarning, brief
 from .reading import Keyed, Quantity, Table, choose, flag, one_of, takes
 
@@ -87,15 +87,16 @@ def turbulence_of(bearing: Any, scene: Any) -> Turbulence:
 
 
 def on_oil(effect: Turbulence, bearing: Any, scene: Any) -> Turbulence:
-    """Return a turbulence with the density of the scene's oil, unless it or the bearing has its own."""
-    own = effect.density is not None or bearing.oil is not None
-    return effect if own else replace(effect, density=scene.lubricant.properties.density)
+    """Return a turbulence with the density of the scene's oil, unless it or the bearing has it already."""
+    density = scene.lubricant.properties.density
+    own = effect.density is not None or bearing.oil is not None or density == DENSITY
+    return effect if own else replace(effect, density=density)
 
 
 def is_left_laminar(table: Any, scene: Any) -> bool:
     """Return whether the film of a table is laminar above its onset, as it is named or asked to be."""
     choice = getattr(table, "turbulence", None)
-    if choice is None or (choice == AUTO and _takes(table)):
+    if choice is None or _is_tilted(table) or (choice == AUTO and _takes(table)):
         return False
     return effect_of(table) is None and is_above(table.build(), scene)
 
@@ -109,7 +110,14 @@ def is_above(bearing: Any, scene: Any) -> bool:
     return is_turbulent_at(warm, density, speed)
 
 
+def _is_tilted(table: Any) -> bool:
+    """Return whether the journal of a table keeps a tilt: its film is laminar."""
+    return getattr(table, "tilt", None) is not None
+
+
 def _takes(table: Any) -> bool:
+    if _is_tilted(table):
+        return False
     film = getattr(table, "film", None)
     if film is None or isinstance(film, ReynoldsFilm):
         return not getattr(table, "conserves", False)
