@@ -23,7 +23,7 @@ LARGEST = {
     "rotorfilm_grid_systems": 144_000,
     "rotorfilm_heat": 110_000,
     "rotorfilm_pads": 76_000,
-    "rotorfilm_oil": 112_000,
+    "rotorfilm_oil": 116_000,
     "rotorfilm_loops": 385_000,
     "rotorfilm_master": 362_000,
 }
