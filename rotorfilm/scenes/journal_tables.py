@@ -14,14 +14,36 @@ from ..bearings.films import geometry
 from ..bearings.films.law import FilmLaw
 from ..bearings.films.mass_conserving import require_conserved_cells
 from ..bearings.films.turbulence import Turbulence
-from ..bearings.journal import JFOFilm, JournalBearing, MapFilm, ReynoldsFilm, ShortFilm
+from ..bearings.journal import (
+    ExtrapolatedFilm,
+    HeldTilt,
+    JFOFilm,
+    JournalBearing,
+    MapFilm,
+    MomentCarryingJournal,
+    ReynoldsFilm,
+    ShortFilm,
+    TiltLevel,
+)
 from ..bearings.oil.oil import TAYLOR, TURBULENT, compression, film_reynolds
 from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarning, brief
 from ..core.limits import FUNCTIONS, MAP_NODES
 from ..core.progress import Report
 from ..core.readable import Readable
 from .families import isothermal, messages, remarks_of
-from .reading import COUNTS, Count, Keyed, Variant, counts, fields_of, keys_of, made_from, takes
+from .reading import (
+    COUNTS,
+    Count,
+    Keyed,
+    Quantity,
+    Several,
+    Variant,
+    counts,
+    fields_of,
+    keys_of,
+    made_from,
+    takes,
+)
 from .shared_tables import Lubricant, OiledTable
 from .turbulent import AUTO, effect_of, read_turbulence, turbulent_remarks, without_oil
 
@@ -100,6 +122,7 @@ FILMS: dict[str, Callable[[], Keyed[FilmLaw | ConservedOil]]] = {
 """`film = {name = "map"}`: film laws by their names in scene files and at the command line."""
 
 
+<<<<<<< HEAD
 class ConservingTable:
     """The table of a bearing whose film may conserve its oil; it adds `film` and `bearing`."""
 
@@ -144,6 +167,9 @@ def require_law(table: Any, what: str) -> None:
     """Raise InputError if the film of any table conserves its oil, which has no force in any motion."""
     if isinstance(table, ConservingTable):
         table.require_law(what)
+=======
+ANGLES = Several(Quantity("rad"), 2, 2, "two angles, about x and about y")
+>>>>>>> main
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -170,6 +196,9 @@ class JournalTable(ConservingTable, OiledTable):
     turbulence : Turbulence or str
         "auto": laminar below the onset and turbulent above it, where no film is named or it is one on a grid;
         "none", the name of a closure, or a table of `Turbulence`.
+    tilt : (float, float) or None [rad]
+        Rotation of the journal about x and y, which it keeps; then the least film is that over the whole
+        length. Of a laminar film, a map or one on a grid, at a viscosity.
     """
 
     film: Annotated[FilmLaw | ConservedOil | None, Variant("name", FILMS)] = None
@@ -177,8 +206,14 @@ class JournalTable(ConservingTable, OiledTable):
     grooves: tuple[geometry.Groove, ...] = ()
     feed_holes: tuple[geometry.FeedHole, ...] = ()
     turbulence: Annotated[Turbulence | str, read_turbulence] = AUTO
+    tilt: Annotated[tuple[float, float] | None, ANGLES] = None
 
     def __post_init__(self) -> None:
+        if self.tilt is not None and (self.conserves or isinstance(self.turbulence, Turbulence)):
+            raise InputError(
+                "tilt must be left out of a journal whose film conserves its oil or is turbulent, "
+                f"got {self.tilt!r} rad"
+            )
         # Without a viscosity there is no bearing before `on` has given the oil.
         if self.has_lubricant:
             self.build()
@@ -208,33 +243,77 @@ class JournalTable(ConservingTable, OiledTable):
         openings = (*self.grooves, *self.feed_holes)
         return made_from(JournalBearing, self, film=named, grooves=openings, turbulence=effect_of(self))
 
+<<<<<<< HEAD
     def repeated_inputs(self, bearing: JournalBearing | JFOFilm) -> tuple[BearingData, str]:
+=======
+    def conserved(self, bearing: JournalBearing, cells: tuple[int, int] | None = None) -> JFOFilm:
+        """Return the film of a bearing that conserves its oil, on cells that by default are the file's."""
+        own = self.film if isinstance(self.film, ConservedOil) else ConservedOil()
+        return made_from(JFOFilm, self, bearing=bearing, cells=cells or own.cells)
+
+    def build(self) -> JournalBearing | JFOFilm | HeldTilt:
+        """Return the bearing, its film that conserves the oil, or its tilted journal; InputError if bad."""
+        bearing = self.bearing()
+        if self.tilt is not None:
+            return HeldTilt(journal=feeling_tilt(bearing, named=self.film is not None), tilt=self.tilt)
+        return self.conserved(bearing) if self.conserves else bearing
+
+    def repeated_inputs(self, bearing: JournalBearing | JFOFilm | HeldTilt) -> tuple[BearingData, str]:
+>>>>>>> main
         """Return what an answer repeats of the bearing, and the name of its film."""
+        if isinstance(bearing, HeldTilt):
+            inner = bearing.journal.bearing
+            name = journal.film_name(inner.fitted_film)
+            return bearing_data(inner), f"{name}, tilt at level {bearing.journal.level.value}"
         if isinstance(bearing, JFOFilm):
             return bearing_data(bearing.bearing), film_of_cells(bearing)
         return bearing_data(bearing), journal.film_name(bearing.fitted_film)
 
     def remarks(
-        self, bearing: JournalBearing | JFOFilm, oil: Lubricant, speed: float, load: tuple[float, float]
+        self,
+        bearing: JournalBearing | JFOFilm | HeldTilt,
+        oil: Lubricant,
+        speed: float,
+        load: tuple[float, float],
     ) -> tuple[str, ...]:
         """Return what its physics leaves out and should not; see `film_remarks`."""
+<<<<<<< HEAD
         turbulent = turbulent_remarks(without_oil(bearing), speed, load)
         return (*turbulent, *film_remarks(bearing, oil, speed, load))
+=======
+        if isinstance(bearing, HeldTilt):
+            return film_remarks(bearing.journal.bearing, oil, speed, load)
+        own = film_remarks(bearing, oil, speed, load)
+        return own if isinstance(bearing, JFOFilm) else (*turbulent_remarks(bearing, speed, load), *own)
+>>>>>>> main
 
     def make_map(self, report: Report) -> None:
         """Make the map of openings, where there are some and the film is one, unless it lies on disk."""
         if not (self.grooves or self.pads):
             return
         bearing = self.build()
-        if isinstance(bearing, JFOFilm):
+        if not isinstance(bearing, JournalBearing):
             return
         if isinstance(bearing.fitted_film, journal.GroovedMapFilm):
             journal.build_groove_map(bearing, report)
 
 
+<<<<<<< HEAD
 def film_of_cells(film: JFOFilm) -> str:
     """Return what a film that conserves its oil is called in print."""
     return f"JFOFilm(cells={film.cells})"
+=======
+def feeling_tilt(bearing: JournalBearing, *, named: bool) -> MomentCarryingJournal:
+    """Return a bearing at the closest level of tilt that its film has.
+
+    A film that is not `named` is on a grid over the whole length.
+    """
+    if not named:
+        bearing = replace(bearing, film=ExtrapolatedFilm(film=ReynoldsFilm()))
+    grid = isinstance(bearing.film, ExtrapolatedFilm | ReynoldsFilm)
+    level = TiltLevel.FULL if grid else TiltLevel.SECOND_ORDER
+    return MomentCarryingJournal(bearing=bearing, level=level)
+>>>>>>> main
 
 
 # Which journals the map that comes with the package holds.

@@ -233,6 +233,10 @@ MADE = [
         bearing=dataclasses.replace(BEARING, film=rf.ReynoldsFilm(cells=(16, 4)))
     ),
     rf.bearings.MomentCarryingJournal(bearing=BEARING, level=rf.bearings.TiltLevel.CLOSED_FORM),
+    rf.bearings.HeldTilt(
+        journal=rf.bearings.MomentCarryingJournal(bearing=BEARING, level=rf.bearings.TiltLevel.CLOSED_FORM),
+        tilt=(1e-4, 2e-4),
+    ),
     rf.ThrustBearing(
         inner_radius=0.025,
         outer_radius=0.05,
