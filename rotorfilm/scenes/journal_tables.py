@@ -122,7 +122,6 @@ FILMS: dict[str, Callable[[], Keyed[FilmLaw | ConservedOil]]] = {
 """`film = {name = "map"}`: film laws by their names in scene files and at the command line."""
 
 
-<<<<<<< HEAD
 class ConservingTable:
     """The table of a bearing whose film may conserve its oil; it adds `film` and `bearing`."""
 
@@ -167,9 +166,9 @@ def require_law(table: Any, what: str) -> None:
     """Raise InputError if the film of any table conserves its oil, which has no force in any motion."""
     if isinstance(table, ConservingTable):
         table.require_law(what)
-=======
+
+
 ANGLES = Several(Quantity("rad"), 2, 2, "two angles, about x and about y")
->>>>>>> main
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -243,23 +242,14 @@ class JournalTable(ConservingTable, OiledTable):
         openings = (*self.grooves, *self.feed_holes)
         return made_from(JournalBearing, self, film=named, grooves=openings, turbulence=effect_of(self))
 
-<<<<<<< HEAD
-    def repeated_inputs(self, bearing: JournalBearing | JFOFilm) -> tuple[BearingData, str]:
-=======
-    def conserved(self, bearing: JournalBearing, cells: tuple[int, int] | None = None) -> JFOFilm:
-        """Return the film of a bearing that conserves its oil, on cells that by default are the file's."""
-        own = self.film if isinstance(self.film, ConservedOil) else ConservedOil()
-        return made_from(JFOFilm, self, bearing=bearing, cells=cells or own.cells)
-
     def build(self) -> JournalBearing | JFOFilm | HeldTilt:
         """Return the bearing, its film that conserves the oil, or its tilted journal; InputError if bad."""
-        bearing = self.bearing()
         if self.tilt is not None:
-            return HeldTilt(journal=feeling_tilt(bearing, named=self.film is not None), tilt=self.tilt)
-        return self.conserved(bearing) if self.conserves else bearing
+            return HeldTilt(journal=feeling_tilt(self.bearing(), named=self.film is not None), tilt=self.tilt)
+        found: JournalBearing | JFOFilm = super().build()
+        return found
 
     def repeated_inputs(self, bearing: JournalBearing | JFOFilm | HeldTilt) -> tuple[BearingData, str]:
->>>>>>> main
         """Return what an answer repeats of the bearing, and the name of its film."""
         if isinstance(bearing, HeldTilt):
             inner = bearing.journal.bearing
@@ -277,15 +267,10 @@ class JournalTable(ConservingTable, OiledTable):
         load: tuple[float, float],
     ) -> tuple[str, ...]:
         """Return what its physics leaves out and should not; see `film_remarks`."""
-<<<<<<< HEAD
-        turbulent = turbulent_remarks(without_oil(bearing), speed, load)
-        return (*turbulent, *film_remarks(bearing, oil, speed, load))
-=======
         if isinstance(bearing, HeldTilt):
             return film_remarks(bearing.journal.bearing, oil, speed, load)
-        own = film_remarks(bearing, oil, speed, load)
-        return own if isinstance(bearing, JFOFilm) else (*turbulent_remarks(bearing, speed, load), *own)
->>>>>>> main
+        turbulent = turbulent_remarks(without_oil(bearing), speed, load)
+        return (*turbulent, *film_remarks(bearing, oil, speed, load))
 
     def make_map(self, report: Report) -> None:
         """Make the map of openings, where there are some and the film is one, unless it lies on disk."""
@@ -298,11 +283,11 @@ class JournalTable(ConservingTable, OiledTable):
             journal.build_groove_map(bearing, report)
 
 
-<<<<<<< HEAD
 def film_of_cells(film: JFOFilm) -> str:
     """Return what a film that conserves its oil is called in print."""
     return f"JFOFilm(cells={film.cells})"
-=======
+
+
 def feeling_tilt(bearing: JournalBearing, *, named: bool) -> MomentCarryingJournal:
     """Return a bearing at the closest level of tilt that its film has.
 
@@ -313,7 +298,6 @@ def feeling_tilt(bearing: JournalBearing, *, named: bool) -> MomentCarryingJourn
     grid = isinstance(bearing.film, ExtrapolatedFilm | ReynoldsFilm)
     level = TiltLevel.FULL if grid else TiltLevel.SECOND_ORDER
     return MomentCarryingJournal(bearing=bearing, level=level)
->>>>>>> main
 
 
 # Which journals the map that comes with the package holds.
