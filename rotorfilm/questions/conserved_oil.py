@@ -173,7 +173,7 @@ def supply_of(table: ConservingTable, bearing: Any) -> str | None:
     """Return why the oil of a bearing cannot be conserved, empty if it can; None without an opening."""
     if bearing.geometry.plain:
         return None
-    if table.tilt is not None:
+    if getattr(table, "tilt", None) is not None:
         return "the journal keeps a tilt"
     try:
         table.conserved(bearing)
