@@ -90,7 +90,8 @@ def simulate_rotor(
     ----------
     mounted : MountedRotor
         Mounted rotor from `mount`, with a bearing without states in at least one station, and without free
-        force inputs. Its speed may be a profile.
+        force inputs. Its bearings react to x and y, or are a `MomentCarryingJournal`. Its speed may be a
+        profile.
     duration : float [s]
     samples : int
         Number of samples at equal distance, from 0 to `duration` inclusive.
@@ -153,7 +154,7 @@ def _agreed(
     before: Trajectory | None = None
     for mounted, state, condensed in starts:
         failure = None
-        parts = take_apart(mounted)
+        parts = take_apart(mounted, tilts=True)
         try:
             run = run_of(mounted, state, parts, dense if condensed else grid)
         except (ContactError, ConvergenceError) as raised:
@@ -222,9 +223,11 @@ def _trajectory(
     signals = dict(zip(names(rotor.outputs), outputs, strict=True))
     for name, bearing in zip(parts.names, parts.bearings, strict=True):
         prefix = f"{name}_" if name else ""
-        x, y, vx, vy = (signals[prefix + key] for key in ("x", "y", "vx", "vy"))
-        force = bearing.force(np.stack([x, y]), np.stack([vx, vy]), signals["speed"])
-        signals[prefix + "force_x"], signals[prefix + "force_y"] = force
+        *motion, _ = (signals[prefix + key.name] if key.name != "speed" else 0.0 for key in bearing.inputs)
+        half = len(motion) // 2
+        force = bearing.force(np.stack(motion[:half]), np.stack(motion[half:]), signals["speed"])
+        for out, row in zip(bearing.outputs, force, strict=False):
+            signals[prefix + out.name] = row
     known = {**dict.fromkeys(signals, "N"), **units(rotor.outputs)}
     return Trajectory(time=time, signals=signals, work=work, units=known)
 

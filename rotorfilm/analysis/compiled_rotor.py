@@ -56,6 +56,7 @@ from ..rotors.structure import (
     NOMINAL_LENGTH,
     MatrixRotor,
     Structure,
+    freedom_rows,
     mean_plane,
     solved_equations,
     station_name,
@@ -82,9 +83,14 @@ def warn_beyond(calls: Iterable[FilmCall]) -> None:
     warn_user(f"a journal went beyond the map of its film; its force is {how}")
 
 
-def film_call(reaction: Any) -> FilmCall:
-    """Return the compiled force of a reaction without states, one that calls back where it has none."""
+def film_call(reaction: Any, *, tilts: bool = False) -> FilmCall:
+    """Return the compiled force of a reaction without states, one that calls back where it has none.
+
+    With `tilts` it may be that of a journal that feels its tilt.
+    """
     require_massless("reaction", reaction)
+    if tilts and feels_tilt(reaction):
+        return reaction.tilted_call() or _called_back(reaction)
     return compiled_force(reaction) or _called_back(reaction)
 
 
@@ -108,13 +114,14 @@ def call_with_added_mass(reaction: Any) -> FilmCall:
 
 def _called_back(reaction: Any) -> FilmCall:
     raised: list[BaseException] = []
+    n = len(freedoms_of(reaction))
 
     def answer(_: Any, state: Any, force: Any, jacobian: Any) -> int:
-        position, velocity = np.array(state[:2]), np.array(state[2:4])
+        position, velocity, speed = np.array(state[:n]), np.array(state[n : 2 * n]), state[2 * n]
         try:
-            for i, value in enumerate(static_force(reaction, position, velocity, state[4]).tolist()):
+            for i, value in enumerate(static_force(reaction, position, velocity, speed).tolist()):
                 force[i] = value
-            slopes = static_slopes(reaction, position, velocity, state[4])[:, :5]
+            slopes = static_slopes(reaction, position, velocity, speed)[:, : 2 * n + 1]
             for i, value in enumerate(slopes.ravel().tolist()):
                 jacobian[i] = value
         except FilmContactError:
@@ -162,7 +169,7 @@ class Parts(NamedTuple):
     names : tuple of str
         Stations of the bearings.
     rows : ndarray, shape (2 n_bearings, N)
-        Displacement of their journals.
+        Displacement of their journals; (4 n_bearings, N), of two points of each, where one feels its tilt.
     base : BaseMotion or None
         Of the ground; None where it is still.
     moved : ndarray, shape (N, 2)
@@ -178,10 +185,15 @@ class Parts(NamedTuple):
     moved: Array = np.zeros((0, 0))
 
     @property
+    def points(self) -> int:
+        """Points of each journal whose displacements its film needs: 2 where a journal feels its tilt."""
+        return len(self.rows) // (2 * len(self.bearings))
+
+    @property
     def lengths(self) -> Array:
-        """Typical displacement of each journal: its clearance, shape (n_bearings,) [m]."""
+        """Typical displacement of each point: the clearance, shape (points n_bearings,) [m]."""
         sizes = [bearing.clearance for bearing in self.bearings]
-        return np.array([size if math.isfinite(size) else NOMINAL_LENGTH for size in sizes])
+        return np.repeat([size if math.isfinite(size) else NOMINAL_LENGTH for size in sizes], self.points)
 
     @property
     def nominal_speed(self) -> float:
@@ -253,8 +265,30 @@ class ModalRotor(NamedTuple):
         return np.asarray((self.shapes @ modal).real + rest)
 
 
-def take_apart(mounted: MountedRotor) -> Parts:
+def feels_tilt(bearing: Any) -> bool:
+    """Return whether a bearing is a journal in C that feels its tilt."""
+    return hasattr(bearing, "tilted_call")
+
+
+def point_rows(bearing: Any) -> Array:
+    """Return x and y of two points of a journal, shape (4, 4), by x, y, tilt_x and tilt_y of its middle."""
+    arm = bearing.arm if feels_tilt(bearing) else 0.0
+    return np.array(
+        [[1.0, 0.0, 0.0, arm], [0.0, 1.0, -arm, 0.0], [1.0, 0.0, 0.0, -arm], [0.0, 1.0, arm, 0.0]]
+    )
+
+
+def _points(structure: Structure, name: str, bearing: Any, planar: Array) -> Array:
+    """Return the displacements of two points of a journal, shape (4, N): of its ends where it tilts."""
+    if not feels_tilt(bearing):
+        return np.concatenate([planar, planar])
+    return np.asarray(point_rows(bearing) @ freedom_rows(structure, name, bearing.freedoms))
+
+
+def take_apart(mounted: MountedRotor, *, tilts: bool = False) -> Parts:
     """Return structure, speed and bearings of a rotor that rests in bearings without states.
+
+    With `tilts` they may be journals that feel their tilt.
 
     Raises
     ------
@@ -274,10 +308,15 @@ def take_apart(mounted: MountedRotor) -> Parts:
             f"bearings must have no states of their own here, got some at the stations {moving}: "
             "simulate(rotor, bearings) takes them, and unbalance_response their small motion"
         )
+    tilted = tilts and any(feels_tilt(bearing) for bearing in bearings)
     for name in names:
-        require_reaction(f"bearings[{name!r}]", found[name], heavy=True, planar=True)
+        planar = not (tilted and feels_tilt(found[name]))
+        require_reaction(f"bearings[{name!r}]", found[name], heavy=True, planar=planar)
     places = [structure.stations.index(name) for name in names]
-    rows = np.concatenate([structure.journals[2 * k : 2 * k + 2] for k in places])
+    each = [structure.journals[2 * k : 2 * k + 2] for k in places]
+    if tilted:
+        each = [_points(structure, name, found[name], own) for name, own in zip(names, each, strict=True)]
+    rows = np.concatenate(each)
     parts = Parts(structure, profile, tuple(bearings), tuple(names), rows)
     if isinstance(bare, BaseExcitedRotor):
         return parts._replace(base=bare.base, moved=translations(bare.rotor))
@@ -308,6 +347,9 @@ def journal_rows(parts: Parts) -> Array:
 def state_matrices(parts: Parts, speed: float) -> tuple[Array, Array, Array]:
     """Return A (2 N, 2 N) without films, B (2 N, 2 n_bearings + 2), the weight's acceleration (2 N,)."""
     model = solved_equations(parts.structure)
+    if parts.points > 1:
+        forces = np.vstack([np.zeros_like(parts.rows.T), np.linalg.solve(parts.structure.mass, parts.rows.T)])
+        return model.steady + speed * model.by_speed, np.hstack([forces, model.unbalance]), model.weight
     places = [2 * parts.structure.stations.index(name) + axis for name in parts.names for axis in range(2)]
     pushes = [model.push[:, places], model.unbalance]
     if parts.base is not None:
@@ -368,14 +410,14 @@ def modal_rotor(parts: Parts, speed: float) -> ModalRotor:
         rest=np.asarray(-np.linalg.solve(shifted, weight)),
         spring=K0,
         damper=C0,
-        calls=tuple(film_call(bearing) for bearing in parts.bearings),
+        calls=tuple(film_call(one, tilts=parts.points > 1) for one in parts.bearings),
         condition=condition,
     )
 
 
 def _natural_support(parts: Parts, speed: float) -> tuple[Array, float]:
     """Return the size of the stiffness at each bearing [N/m], and a typical rate [1/s]."""
-    count, s = len(parts.bearings), parts.structure
+    count, s = len(parts.lengths), parts.structure
     load = float(np.linalg.norm(s.weight)) / count
     # A rigid translation is what the journals' rows see with a weight of one.
     mass = float(np.trace(s.mass)) / (2.0 * count)
@@ -411,6 +453,11 @@ CONTACT_GAP = 1e-9
 """Film thickness, in clearances, at which a journal counts as touching: below any surface roughness."""
 
 
+def _wall(bearing: Any) -> float:
+    """Return the eccentricity at which a journal's points touch [m]; infinite where its force says that."""
+    return math.inf if feels_tilt(bearing) and bearing.tilted_call() is None else float(bearing.clearance)
+
+
 class JournalFilms(NamedTuple):
     """The bearings of a rotor as the C library reads them.
 
@@ -426,6 +473,8 @@ class JournalFilms(NamedTuple):
         Clearances, or what stands for them.
     walls : ndarray, shape (n,) [m]
         Eccentricities at which a journal counts as touching; infinite without a wall.
+    arms : ndarray, shape (n / points,) [m]
+        Of each journal's points; 0 where it feels no tilt.
     """
 
     films: np.ndarray
@@ -435,19 +484,24 @@ class JournalFilms(NamedTuple):
     damper: Array
     lengths: Array
     walls: Array
+    arms: Array
 
     @classmethod
     def of_rotor(cls, modal: ModalRotor, *, absolute: bool = False) -> JournalFilms:
         """Return those of a rotor, which has to live as long; motion is from its rest, or `absolute`."""
         addresses = np.array([(call.address, call.data) for call in modal.calls], dtype=np.uintp).T
-        rest = np.zeros(4 * len(modal.calls)) if absolute else modal.journal_rest
-        walls = (1.0 - CONTACT_GAP) * np.array([bearing.clearance for bearing in modal.parts.bearings])
-        rows = rest, modal.spring, modal.damper, modal.parts.lengths, walls
+        parts = modal.parts
+        rest = np.zeros(4 * len(parts.lengths)) if absolute else modal.journal_rest
+        sizes = [_wall(one) for one in parts.bearings]
+        walls = (1.0 - CONTACT_GAP) * np.repeat(sizes, parts.points)
+        arms = np.array([one.arm if feels_tilt(one) else 0.0 for one in parts.bearings])
+        rows = rest, modal.spring, modal.damper, parts.lengths, walls, arms
         return cls(*map(np.ascontiguousarray, (*addresses, *rows)))
 
     def struct(self) -> Any:
         """Return them as the C library reads them, while this object lives."""
-        return structure("rf_journals")(len(self.lengths), *(numbers.ctypes.data for numbers in self))
+        sizes = len(self.lengths), len(self.lengths) // len(self.arms)
+        return structure("rf_journals")(*sizes, *(numbers.ctypes.data for numbers in self))
 
     def forces(self, motion: Array, speed: float) -> tuple[int, Array, Array]:
         """Return a status, forces of films and springs (2 n, samples), and slopes (2 n, 4, samples).
@@ -513,7 +567,8 @@ def takes_forces(rotor: Dynamic, bearings: Iterable[Any]) -> bool:
     mounted = rotor.all_bearings.values() if isinstance(rotor, MountedRotor) else ()
     every = (*bearings, *mounted)
     massless = all(not film.states and inertial(film) is None for film in every)
-    return massless and _is_linear(rotor) and all(freedoms_of(film) == PLANAR for film in every)
+    planar = all(freedoms_of(film) == PLANAR or feels_tilt(film) for film in every)
+    return massless and planar and _is_linear(rotor)
 
 
 def _is_compiled(bearing: Any) -> bool:
@@ -565,12 +620,18 @@ def _within(model: Condensed, state: Array) -> Array:
 
 
 def largest_difference(parts: Parts, one: Trajectory, other: Trajectory) -> float:
-    """Return by how much journals of two runs are apart, in clearances; inf where not both go as far."""
+    """Return by how much journals of two runs are apart, in clearances; inf where not both go as far.
+
+    Of journals that feel their tilt the ends count too.
+    """
     if len(one.time) != len(other.time):
         return np.inf
     worst = 0.0
-    for name, length in zip(parts.names, parts.lengths, strict=True):
-        for axis in "xy":
-            key = station_name(name, axis)
-            worst = max(worst, float(np.abs(one[key] - other[key]).max(initial=0.0)) / float(length))
+    sizes = zip(parts.names, parts.bearings, parts.lengths[:: parts.points], strict=True)
+    for name, bearing, length in sizes:
+        arms = {"tilt_x": bearing.arm, "tilt_y": bearing.arm} if feels_tilt(bearing) else {}
+        for key, arm in ({"x": 1.0, "y": 1.0} | arms).items():
+            signal = station_name(name, key)
+            apart = arm * float(np.abs(one[signal] - other[signal]).max(initial=0.0))
+            worst = max(worst, apart / float(length))
     return worst
