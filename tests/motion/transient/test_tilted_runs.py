@@ -1,4 +1,4 @@
-"""Compiled runs of shafts in journals that feel their tilt: beside scipy, planar journals, contact of an end."""
+"""Compiled runs of shafts in journals that feel their tilt: scipy, planar journals, contact of an end."""
 
 from dataclasses import replace
 
