@@ -1,6 +1,7 @@
 """Cost of a static equilibrium with its eight coefficients, in one run; one validated force = 1.
 
-"Numbers" is a reaction with `prepare_tangent`; "arrays" is the same bearing stripped to force and jacobian.
+"Compiled" is a film of the C library; "Python" is the same bearing stripped to force and jacobian; "together"
+has all loads searched in one call.
 
     python benchmarks/equilibrium.py
 """
@@ -12,7 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotorfilm.analysis import coefficients, equilibrium
+from rotorfilm.analysis import coefficients, equilibria, equilibrium
+from rotorfilm.analysis.coefficients import coefficients_at
 from rotorfilm.bearings.journal import JournalBearing, MapFilm, ShortFilm
 from rotorfilm.studies import shortest_time
 
@@ -45,6 +47,14 @@ def solve(reaction) -> list:
     return points
 
 
+def solve_together(reaction) -> list:
+    """Return the same from one call."""
+    loads = np.stack([np.zeros(len(LOADS)), -LOADS])
+    points = equilibria(reaction, loads, np.full(len(LOADS), SPEED))
+    coefficients_at(reaction, points)
+    return list(points)
+
+
 def main() -> None:
     """Print the table."""
     sys.stdout.write("| bearing | equilibrium and coefficients [us] | forces | Newton steps | residual |\n")
@@ -52,9 +62,11 @@ def main() -> None:
     for name, film in (("map", MapFilm()), ("short film", ShortFilm())):
         bearing = JournalBearing(**DIMENSIONS, film=film)
         one = shortest_time(lambda b=bearing: b.force([1e-5, -2e-5], [0.0, 0.0], SPEED), loops=200)
-        for kind, reaction in (("numbers", bearing), ("arrays", Plain(bearing))):
-            points = solve(reaction)
-            each = shortest_time(lambda r=reaction: solve(r)) / len(LOADS)
+        plain = Plain(bearing)
+        ways = ("compiled", bearing, solve), ("Python", plain, solve), ("together", bearing, solve_together)
+        for kind, reaction, way in ways:
+            points = way(reaction)
+            each = shortest_time(lambda r=reaction, w=way: w(r)) / len(LOADS)
             steps = np.mean([point.iterations for point in points])
             worst = max(point.residual for point in points)
             row = f"| {name}, {kind} | {1e6 * each:.0f} | {each / one:.1f} | {steps:.1f} | {worst:.0e} |"

@@ -251,6 +251,7 @@ def test_core_needs_numpy_only(name):
         "unicodedata",
         "io",
         "contextlib",
+        "contextvars",
         "errno",
         "os",
         "shutil",

@@ -86,6 +86,7 @@ if TYPE_CHECKING:
     from .critical import critical_speed_map as critical_speed_map
     from .equilibrium import (
         HeatedEquilibrium as HeatedEquilibrium,
+        equilibria as equilibria,
         equilibrium as equilibrium,
         heated_equilibrium as heated_equilibrium,
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from numbers import Number
 from typing import Any
@@ -29,6 +30,7 @@ from ..core.port import (
     freedoms_of,
     in_time,
     inertial,
+    is_warming,
     mass_of,
     require_place,
     require_range,
@@ -42,7 +44,7 @@ from ..core.port import (
 from ..core.readable import Drawable
 from ..core.results import Coefficients, Equilibrium, InertialCoefficients
 from ..core.sources import offered
-from .equilibrium import equilibrium
+from .equilibrium import equilibria, equilibrium
 from .threads import one_blas_thread
 
 
@@ -108,6 +110,26 @@ def film_coefficients(
             motion = InertialStiffness(motion, mass_of(film, position, np.zeros_like(position), speed))
         return coefficients_of(motion, position, speed, frequency, freedoms_of(film))
     return _held(at_balanced_temperature(reaction, position, speed), position, speed)
+
+
+def coefficients_at(reaction: Any, rests: Sequence[Equilibrium]) -> list[Coefficients]:
+    """Return `film_coefficients` at each of many equilibria: for a static force without heat all at once."""
+    if states_rest(reaction) or is_warming(reaction) or inertial(reaction) or len(rests) < 2:
+        return [film_coefficients(reaction, at.position, at.speed) for at in rests]
+    positions, n = np.array([at.position for at in rests]).T, len(freedoms_of(reaction))
+    slopes = static_slopes(
+        reaction, positions, np.zeros_like(positions), np.array([at.speed for at in rests])
+    )
+    return [
+        Coefficients(
+            stiffness=-own[:, :n],
+            damping=-own[:, n : 2 * n],
+            position=at.position,
+            speed=at.speed,
+            freedoms=freedoms_of(reaction),
+        )
+        for own, at in zip(np.moveaxis(slopes, -1, 0), rests, strict=True)
+    ]
 
 
 def _held(film: Any, position: Array, speed: float) -> Coefficients:
@@ -236,8 +258,8 @@ def coefficient_table(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) ->
     grid = require_finite("speeds", speeds)
     if grid.ndim != 1 or not grid.size:
         raise InputError(f"speeds must be a list of rising numbers, got {speeds!r}")
-    rests = tuple(equilibrium(reaction, load, speed) for speed in grid.tolist())
-    points = [film_coefficients(reaction, at.position, at.speed) for at in rests]
+    rests = equilibria(reaction, load, grid)
+    points = coefficients_at(reaction, rests)
     return offered("TabulatedBearing")(
         speeds=grid,
         stiffness=np.array([point.stiffness for point in points]),

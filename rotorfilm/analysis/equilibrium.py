@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Iterator
-from contextlib import suppress
+from collections.abc import Iterator, Sequence
+from contextlib import nullcontext, suppress
+from ctypes import CFUNCTYPE, POINTER, byref, c_double, c_int, c_void_p, cast, memmove
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
@@ -19,6 +21,7 @@ from ..core.errors import (
     InputError,
     UndefinedDerivativeError,
     ValidityWarning,
+    brief,
     require_finite,
     require_number,
     require_pair,
@@ -29,8 +32,8 @@ from ..core.model import Array
 from ..core.port import (
     MOST_LEFT,
     Reaction,
-    Tangent,
     clearance_of,
+    compiled_force,
     force_noise,
     freedoms_of,
     has_wall,
@@ -51,6 +54,10 @@ from ..core.port import (
 from ..core.readable import Readable
 from ..core.results import Equilibrium
 from ..core.signals import PLANAR
+from ..native import Status
+from ..native.film_call import FilmCall
+from ..native.library import loops
+from ..native.structs import structure
 from .threads import one_blas_thread
 
 UNLOADED = (
@@ -122,6 +129,90 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     return found
 
 
+@arguments
+def equilibria(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) -> tuple[Equilibrium, ...]:
+    """Return the equilibria of many speeds and loads, searched in one call of the C library.
+
+    Parameters
+    ----------
+    reaction : Reaction
+        As in `equilibrium`. The force of one without a compiled force, or with states or heat, is searched
+        speed by speed.
+    load : array_like, shape (n_freedoms,) or (n_freedoms, n) [N]
+        One load for all speeds, or one for each.
+    speeds : array_like, shape (n,) [rad/s]
+
+    Returns
+    -------
+    tuple of Equilibrium
+        The same as `equilibrium` returns for each, with its warnings.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+    EquilibriumError
+        As in `equilibrium`, for the first speed without an equilibrium.
+    """
+    require_reaction("reaction", reaction, heavy=True)
+    grid, loads = require_finite("speeds", speeds), require_finite("load", load)
+    if grid.ndim != 1:
+        raise InputError(f"speeds must be a list of numbers, got {brief(speeds)}")
+    if loads.ndim == 2 and loads.shape[1] != grid.size:
+        raise InputError(f"load must be one, or one for each of {grid.size} speeds, got shape {loads.shape}")
+    columns = list(loads.T) if loads.ndim == 2 else [loads]
+    planar = freedoms_of(reaction) == PLANAR
+    sound = planar and len(loads) == 2 and all(one.any() for one in columns)
+    for one in () if sound else columns:
+        checked_load(one) if planar else require_place(reaction, one, "load")
+    found = settled(reaction, columns, grid.tolist())
+    result = []
+    for k, speed in enumerate(grid.tolist()):
+        result.append(found[k] or _found(reaction, columns[k % len(columns)], speed))
+        warn_of_flow(reaction, speed, result[-1].temperature)
+    for one in columns:
+        warn_of_load(reaction, one)
+    return tuple(result)
+
+
+def settled(reaction: Any, loads: Sequence[Array], speeds: Sequence[float]) -> list[Equilibrium | None]:
+    """Return the equilibria at some speeds where a compiled force settles the search, and None elsewhere.
+
+    Where it is None, `equilibrium` finds it, warns, or tells why there is none. The loads are one for all
+    speeds, or one for each.
+    """
+    searched = not (is_warming(reaction) or states_rest(reaction)) and freedoms_of(reaction) == PLANAR
+    call = compiled_force(reaction) if searched and clearance_of(reaction) < math.inf else None
+    if call is None or not speeds:
+        return [None] * len(speeds)
+    each = [loads[k % len(loads)] for k in range(len(speeds))]
+    first = _target(reaction, each[0], speeds[0], told=True)
+    told = np.array([(*(-load).tolist(), speed) for load, speed in zip(each, speeds, strict=True)])
+    places = (type(first.struct) * len(speeds))()
+    rows = np.frombuffer(places, dtype=_row())
+    rows[:] = np.frombuffer(first.struct, dtype=rows.dtype)
+    rows["force"], rows["speed"] = told[:, :2], told[:, 2]
+    rows["lead"] = np.copysign(_FIRST_ANGLE, told[:, 2])
+    if hasattr(reaction, "force_noise"):
+        rows["noise"] = [force_noise(reaction, speed) for speed in speeds]
+    if hasattr(reaction, "rest_place"):
+        near = [rest_place(reaction, tuple(load), speed) for load, speed in zip(each, speeds, strict=True)]
+        rows["near"] = [(math.nan, math.nan) if one is None else one for one in near]
+    points = (structure("rf_static_point") * len(speeds))()
+    loops()["rf_static_places"](places, len(speeds), points)
+    return [
+        _result(reaction, load, first._replace(struct=place), point)
+        if point.found and point.status == Status.OK and not point.unstable
+        else None
+        for load, place, point in zip(each, places, points, strict=True)
+    ]
+
+
+@cache
+def _row() -> np.dtype[Any]:
+    return np.dtype(structure("rf_static_target"))
+
+
 def _found(reaction: Any, load: Array, speed: float) -> Equilibrium:
     """Return the equilibrium of checked arguments."""
     if is_warming(reaction):
@@ -130,35 +221,26 @@ def _found(reaction: Any, load: Array, speed: float) -> Equilibrium:
     film: Any = quasi_static(reaction)
     if freedoms_of(film) != PLANAR or not clearance_of(film) < math.inf:
         return _without_circle(film, load, speed)
-    relative_clearance = min(relative_film(film, np.zeros(2)), 1.0)
-    lead = 0.0 if following else math.copysign(_FIRST_ANGLE, speed)  # pads that follow take no journal aside
-    x, y = -float(load[0]), -float(load[1])
-    near = rest_place(film, (-x, -y), speed)
-    target = StaticTarget(
-        prepared_tangent(film),
-        film.clearance,
-        speed,
-        x,
-        y,
-        relative_clearance,
-        lead,
-        force_noise(film, speed),
-        near,
-    )
-    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
-        # A state that the search only passes through is nobody's answer; that of the result is warned of.
+    target = _target(film, load, speed, following=following, told=True)
+    # A state that the search only passes through is nobody's answer; that of the result is warned of.
+    quiet = nullcontext() if target.is_compiled else _quietly()
+    with quiet:
         best = search_place(target)
-        if following and not is_found(target, best):
+        if following and not best.found:
             best = continued_place(target, best)
-    if not is_found(target, best):
+    if not best.found:
         raise EquilibriumError(_why_not(load, target, best))
     found = _result(film, load, target, best)
     if not found.residual <= MOST_LEFT:
         raise EquilibriumError(_not_found(load, speed, found.residual))
-    if is_unstable(best):
-        warn_user(UNSTABLE.format(list(best.position), speed))
+    if best.unstable:
+        warn_user(UNSTABLE.format(found.position.tolist(), speed))
     tell = getattr(film, "completed", None)
     return found if tell is None else tell(found)
+
+
+def _quietly() -> warnings.catch_warnings[None]:
+    return warnings.catch_warnings(action="ignore", category=ValidityWarning)
 
 
 _ENOUGH, _BACK, _PLACES = 1e-12, 40, 60
@@ -283,33 +365,31 @@ def checked_load(load: ArrayLike) -> Array:
     return array
 
 
-def _result(reaction: Any, load: Array, target: StaticTarget, point: StaticPoint) -> Equilibrium:
-    position = np.array(point.position)
-    force = reaction.force(position, np.zeros(2), target.speed)
-    angle = math.copysign(1.0, target.speed) * (point.phi - math.atan2(-target.y, -target.x))
+def _result(reaction: Any, load: Array, target: StaticTarget, point: Any) -> Equilibrium:
+    position, speed = np.array(point.position), target.struct.speed
+    # A force in Python, or one beyond its map, is asked once more for what it has to warn of.
+    silent = target.is_compiled and point.status == Status.OK
+    force = np.array(point.force) if silent else reaction.force(position, np.zeros(2), speed)
+    angle = math.copysign(1.0, speed) * (point.phi - math.atan2(load[1], load[0]))
     return Equilibrium(
         position=position,
-        speed=target.speed,
+        speed=speed,
         load=load,
         eccentricity_ratio=1.0 / (1.0 + math.exp(-point.s)),
         attitude_angle=math.remainder(angle, 2.0 * math.pi),
-        minimum_film=_minimum_film(reaction, target, point),
+        # In a circle from s, which has its digits near the wall.
+        minimum_film=float(reaction.minimum_film(position))
+        if has_wall(reaction)
+        else target.struct.clearance / (1.0 + math.exp(point.s)),
         residual=math.hypot(*(force + load)) / target.size,
         iterations=point.steps,
         reaction=reaction,
     )
 
 
-def _minimum_film(reaction: Any, target: StaticTarget, point: StaticPoint) -> float:
-    """Return the least film [m]; in a circle from s, which has its digits near the wall."""
-    if has_wall(reaction):
-        return float(reaction.minimum_film(point.position))
-    return target.clearance / (1.0 + math.exp(point.s))
-
-
-def _why_not(load: Array, target: StaticTarget, best: StaticPoint) -> str:
+def _why_not(load: Array, target: StaticTarget, best: Any) -> str:
     """Return the message that names the load, the rule it breaks, and the film force at the limit."""
-    speed = target.speed
+    speed = target.struct.speed
     if math.isfinite(best.norm) and not has_force_against(target):
         return (
             f"load must be one that the film can push against: at speed {speed!r} rad/s it has no force in "
@@ -318,7 +398,7 @@ def _why_not(load: Array, target: StaticTarget, best: StaticPoint) -> str:
     given = f"got load {load.tolist()} N with |load| = {math.hypot(*load):.6g} N"
     if not math.isfinite(best.norm):
         return f"speed must let the film carry the load: at speed {speed!r} rad/s it carries none, {given}"
-    if best.s == LARGEST_S and best.ratio < 0.0:
+    if best.s > LARGEST_S - 1e-12 and best.ratio < 0.0:
         limit = math.exp(best.ratio) * math.hypot(*load)
         return (
             f"load must be within the film's capacity at speed {speed!r} rad/s: the film force at "
@@ -330,7 +410,7 @@ def _why_not(load: Array, target: StaticTarget, best: StaticPoint) -> str:
             f"load must be within the film's capacity at speed {speed!r} rad/s: the largest film force found "
             f"is {math.exp(best.ratio) * math.hypot(*load):.6g} N, at {list(best.position)} m, {given}"
         )
-    left = unavoidable(target, best)
+    left = best.unavoidable
     if best.imbalance <= left:
         return (
             f"load must stand out from the roundoff of the film's forces at speed {speed!r} rad/s, which "
@@ -347,7 +427,7 @@ def _not_found(load: Array, speed: float, imbalance: float) -> str:
     )
 
 
-# Newton's method for the place at which a film has a given force, and the loads that it has no slope for.
+# The search for the place at which a film has a given force, in the C library (native/loops/static_place.h).
 
 
 MAXIMUM_ECCENTRICITY = 0.9999
@@ -355,79 +435,107 @@ MAXIMUM_ECCENTRICITY = 0.9999
 
 LARGEST_S = math.log(MAXIMUM_ECCENTRICITY / (1.0 - MAXIMUM_ECCENTRICITY))
 
-_TOLERANCE = 1e-12
-_ROUNDOFF_STOP = 1e-13
-_ROUNDOFF = 1e-15  # of a place, in clearances
-_LARGEST_LOG = 300.0
 _DIRECTIONS, _FAR = 24, (0.3, 0.7, 0.95, 0.999)
 _ALIKE, _OPPOSITE = 1e-9, math.pi - 1e-6
 _NEUTRAL_SLOPE = 1e-6
 _NEWTON_STEPS = 60
-_NEUTRAL = 1e-11
-_LARGEST_MOVE = (6.0, 1.0)
-_HALVINGS = (
-    26  # the load of a tilting pad begins as the root of the way: steps beyond its edge are far too long
-)
 _ACROSS = (0.1, 0.2, 0.4, 0.8)
 _LESS = 1.4
 
+_NO_FORCE = (UndefinedDerivativeError, FilmContactError, ConvergenceError, EquilibriumError)
+"""What a film raises at a state that the search passes over."""
+
+_CALLBACK = CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double))
+
 
 class StaticTarget(NamedTuple):
-    """What the search looks for: the film in plain numbers, and the force that it must have."""
+    """What the search looks for: an rf_static_target, the film, and its force behind an address."""
 
-    tangent: Tangent
-    clearance: float
-    speed: float
-    x: float
-    y: float
-    relative_clearance: float
-    lead: float  # of the first trial, from the load on
-    noise: float = 0.0  # force that roundoff leaves [N]
-    near: tuple[float, float] | None = None  # where the film says that it is [m]
+    struct: Any
+    film: Any
+    call: FilmCall
+    is_compiled: bool
 
     @property
     def size(self) -> float:
-        """Size of that force [N]."""
-        return math.hypot(self.x, self.y)
+        """Size of the force that the film must have [N]."""
+        return math.hypot(*self.struct.force)
+
+    def at(self, s: float, phi: float) -> Any:
+        """Return the rf_static_point of one trial."""
+        return self._asked("rf_static_trial", s, phi, 0)
+
+    def newton(self, s: float, phi: float, most: int = _NEWTON_STEPS) -> Any:
+        """Return the point to which so many steps of Newton's method lead."""
+        return self._asked("rf_static_newton", s, phi, most)
+
+    def _asked(self, function: str, s: float, phi: float, count: int) -> Any:
+        point = structure("rf_static_point")()
+        if loops()[function](byref(self.struct), s, phi, count, byref(point)):
+            self.fail(point)
+        return point
+
+    def fail(self, point: Any) -> None:
+        """Raise what the film fails with at a point of the search."""
+        if self.call.raised:
+            raise self.call.raised[0]
+        prepared_tangent(self.film)(*point.position, 0.0, 0.0, self.struct.speed)
 
 
-class StaticPoint(NamedTuple):
-    """A trial solution (s, phi): position, residual (ratio, angle) and its derivatives, row by row."""
+def _target(
+    film: Any, load: Array, speed: float, *, following: bool = False, told: bool = False
+) -> StaticTarget:
+    """Return what the search looks for; pads that are `following` take no journal aside.
 
-    s: float
-    phi: float
-    steps: int
-    position: tuple[float, float] = (math.nan, math.nan)
-    ratio: float = math.inf
-    angle: float = 0.0
-    matrix: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
-    slopes: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)  # of the force by the position [N/m]
-
-    @property
-    def norm(self) -> float:
-        """Size of the residual [1]."""
-        return math.hypot(self.ratio, self.angle)
-
-    @property
-    def imbalance(self) -> float:
-        """|film force + load| / |load| [1]; of the logarithm, so that small ones keep their digits."""
-        if not self.norm < math.inf:
-            return math.inf
-        ratio = min(self.ratio, _LARGEST_LOG)
-        return math.hypot(math.expm1(ratio), 2.0 * math.exp(0.5 * ratio) * math.sin(0.5 * self.angle))
-
-
-def search_place(target: StaticTarget) -> StaticPoint:
-    """Return the first converged point, or the best of all starts."""
-    points = []
-    for s, phi in _starts(target):
-        points.append(_newton(target, s, phi))
-        if is_found(target, points[-1]):
-            return points[-1]
-    return min(points, key=lambda point: point.norm)
+    A film that has `told` is asked what room there is, what roundoff leaves of its force, and where the
+    journal rests.
+    """
+    call, x, y = compiled_force(film), float(load[0]), float(load[1])
+    near = rest_place(film, (x, y), speed) if told else None
+    used = call or _called_back(film)
+    struct = structure("rf_static_target")(
+        used.address,
+        used.data,
+        film.clearance,
+        min(relative_film(film, np.zeros(2)), 1.0) if told else 1.0,
+        math.copysign(_FIRST_ANGLE, speed) if told and not following else 0.0,
+        force_noise(film, speed) if told else 0.0,
+        speed,
+        (-x, -y),
+        (math.nan, math.nan) if near is None else tuple(near),
+    )
+    return StaticTarget(struct, film, used, call is not None)
 
 
-def continued_place(target: StaticTarget, best: StaticPoint) -> StaticPoint:
+def _called_back(film: Any) -> FilmCall:
+    """Return the force of a film in Python for the search, which ends at an error that says more."""
+    raised: list[BaseException] = []
+    tangent = prepared_tangent(film)
+
+    def answer(_: Any, state: Any, force: Any, slopes: Any) -> int:
+        try:
+            force[0], force[1], ten = tangent(*state[:5])
+            memmove(slopes, (c_double * 10)(*ten), 80)
+        except _NO_FORCE:
+            return Status.UNDEFINED
+        except BaseException as error:
+            raised[:] = [error]
+            return Status.NOT_FINITE
+        return Status.OK
+
+    function = _CALLBACK(answer)
+    return FilmCall(cast(function, c_void_p).value or 0, 0, owner=function, raised=raised)
+
+
+def search_place(target: StaticTarget) -> Any:
+    """Return the first converged rf_static_point, or the best of all starts."""
+    point = structure("rf_static_point")()
+    if loops()["rf_static_places"](byref(target.struct), 1, byref(point)):
+        target.fail(point)
+    return point
+
+
+def continued_place(target: StaticTarget, best: Any) -> Any:
     """Return the point of a load that one pad carries nearly alone, by loads that pull less and less across.
 
     There the film holds the journal in one direction only, and nothing tells Newton's method how far across
@@ -435,118 +543,30 @@ def continued_place(target: StaticTarget, best: StaticPoint) -> StaticPoint:
     """
     if not math.isfinite(best.norm):
         return best
-    fx, fy, _ = target.tangent(*best.position, 0.0, 0.0, target.speed)
-    left = math.hypot(target.x - fx, target.y - fy)
+    x, y = target.struct.force
+    fx, fy = best.force
+    left = math.hypot(x - fx, y - fy)
 
     def pulled(size: float) -> StaticTarget:
         more = size / left - 1.0
-        return target._replace(x=target.x + more * (target.x - fx), y=target.y + more * (target.y - fy))
+        struct = type(target.struct).from_buffer_copy(target.struct)
+        struct.force[:] = x + more * (x - fx), y + more * (y - fy)
+        return target._replace(struct=struct)
 
     for share in _ACROSS:
         across = max(share * target.size, left)
         point = search_place(pulled(across))
-        while across > left and is_found(target, point):
+        while across > left and point.found:
             across = max(across / _LESS, left)
-            point = _newton(pulled(across), point.s, point.phi)
-        if across == left and is_found(target, point):
+            point = pulled(across).newton(point.s, point.phi)
+        if across == left and point.found:
             return point
     return best
 
 
-def _starts(target: StaticTarget) -> list[tuple[float, float]]:
-    """Return starting points (s, phi); half of the way to the wall is enough for most films."""
-    along_load, half = (
-        math.atan2(-target.y, -target.x),
-        math.log(target.relative_clearance / (2.0 - target.relative_clearance)),
-    )
-    turns = [k * math.pi / 3.0 for k in range(6)]
-    told = [] if target.near is None else [_start_at(target, *target.near)]
-    first = (half, along_load + target.lead)
-    return [*told, first, *((s, along_load + turn) for s in (half - 2.0, half + 2.0) for turn in turns)]
-
-
 def _start_at(target: StaticTarget, x: float, y: float) -> tuple[float, float]:
-    chi = math.hypot(x, y) / target.clearance or 1e-300
+    chi = math.hypot(x, y) / target.struct.clearance or 1e-300
     return math.log(chi / (1.0 - chi)) if chi < MAXIMUM_ECCENTRICITY else LARGEST_S, math.atan2(y, x)
-
-
-def _newton(target: StaticTarget, s: float, phi: float, most: int = _NEWTON_STEPS) -> StaticPoint:
-    point = _point(target, s, phi, 0)
-    while point.steps < most and _ROUNDOFF_STOP < point.norm < math.inf:
-        a, b, c, d = point.matrix
-        det, size = a * d - b * c, a * a + b * b + c * c + d * d or 1.0
-        step_s, step_phi = b * point.angle - d * point.ratio, c * point.ratio - a * point.angle
-        if abs(det) < _NEUTRAL * size:  # nothing holds the journal in one direction: the shortest step
-            det, step_s = -size, a * point.ratio + c * point.angle
-            step_phi = b * point.ratio + d * point.angle
-        improved = _damped(target, point, step_s / det, step_phi / det)
-        if improved is None:
-            break
-        point = improved
-    return point
-
-
-def _damped(target: StaticTarget, point: StaticPoint, step_s: float, step_phi: float) -> StaticPoint | None:
-    """Return the first of ever shorter steps that lowers the residual, or None."""
-    share = min(
-        1.0, _LARGEST_MOVE[0] / max(abs(step_s), 1e-300), _LARGEST_MOVE[1] / max(abs(step_phi), 1e-300)
-    )
-    for halvings in range(_HALVINGS):
-        part = 0.5**halvings * share
-        s = min(point.s + part * step_s, LARGEST_S)
-        trial = _point(target, s, point.phi + part * step_phi, point.steps + 1)
-        if trial.norm < point.norm:
-            return trial
-    return None
-
-
-def _point(target: StaticTarget, s: float, phi: float, steps: int) -> StaticPoint:
-    """Return the residual at (s, phi), and d(residual)/d(s, phi) by the chain rule from dF/d(position)."""
-    distance = target.clearance / (1.0 + math.exp(-s))
-    x, y = distance * math.cos(phi), distance * math.sin(phi)
-    try:
-        fx, fy, D = target.tangent(x, y, 0.0, 0.0, target.speed)
-    except (UndefinedDerivativeError, FilmContactError, ConvergenceError, EquilibriumError):
-        return StaticPoint(s, phi, steps)
-    size = math.hypot(fx, fy)
-    if not 0.0 < size < math.inf:
-        return StaticPoint(s, phi, steps)
-    # d(position)/ds = (1 - chi) position, d(position)/dphi = position turned by 90 degrees
-    gap = 1.0 / (1.0 + math.exp(s))
-    x_s, y_s = gap * (D[0] * x + D[1] * y), gap * (D[5] * x + D[6] * y)
-    x_phi, y_phi = D[1] * x - D[0] * y, D[6] * x - D[5] * y
-    ux, uy = fx / size, fy / size
-    return StaticPoint(
-        s,
-        phi,
-        steps,
-        (x, y),
-        math.log(size / target.size),
-        math.atan2(target.x * uy - target.y * ux, target.x * ux + target.y * uy),
-        (
-            (ux * x_s + uy * y_s) / size,
-            (ux * x_phi + uy * y_phi) / size,
-            (ux * y_s - uy * x_s) / size,
-            (ux * y_phi - uy * x_phi) / size,
-        ),
-        (D[0], D[1], D[5], D[6]),
-    )
-
-
-def is_found(target: StaticTarget, point: StaticPoint) -> bool:
-    """Return whether the film balances the load to 1e-12, or to what `unavoidable` leaves, within reason."""
-    allowed = max(_TOLERANCE, unavoidable(target, point))
-    return point.imbalance <= min(allowed, MOST_LEFT)
-
-
-def unavoidable(target: StaticTarget, point: StaticPoint) -> float:
-    """Return the imbalance that roundoff leaves of gap, place and force, over the load.
-
-    Preloaded pads and balls press each other with forces of which a light load is the small difference.
-    """
-    gap = math.exp(min(point.ratio, _LARGEST_LOG)) * (1.0 + math.exp(point.s))
-    place = target.clearance * max(abs(slope) for slope in point.slopes) / target.size
-    return _ROUNDOFF * max(gap, place) + target.noise / target.size
 
 
 def has_force_against(target: StaticTarget) -> bool:
@@ -557,20 +577,13 @@ def has_force_against(target: StaticTarget) -> bool:
     """
     sides = [-math.inf, math.inf]
     for share in _FAR:
-        chi = share * min(target.relative_clearance, MAXIMUM_ECCENTRICITY)
+        chi = share * min(target.struct.relative_clearance, MAXIMUM_ECCENTRICITY)
         for k in range(_DIRECTIONS):
-            at = _point(target, math.log(chi / (1.0 - chi)), math.tau * k / _DIRECTIONS, 0)
+            at = target.at(math.log(chi / (1.0 - chi)), math.tau * k / _DIRECTIONS)
             if at.norm < math.inf:
                 sides[0] = max(sides[0], at.angle if at.angle <= _ALIKE else -math.inf)
                 sides[1] = min(sides[1], at.angle if at.angle >= -_ALIKE else math.inf)
     return sides[1] - sides[0] < _OPPOSITE
-
-
-def is_unstable(point: StaticPoint) -> bool:
-    """Return whether the journal moves away from its place: d(force)/d(position) has a positive value."""
-    a, b, c, d = point.slopes
-    half, turn = 0.5 * (a + d), 0.25 * (a - d) ** 2 + b * c
-    return turn >= 0.0 and half + math.sqrt(turn) > _NEUTRAL_SLOPE * max(map(abs, point.slopes))
 
 
 # The static equilibrium of a journal on a film whose temperature is a field.
@@ -771,8 +784,8 @@ def _places(film: FieldFilm, load: Array, speed: float, first: Array, temperatur
     for chi in SCANNED:
         for angle in np.linspace(0.0, 2.0 * math.pi, ANGLES, endpoint=False):
             place = chi * clearance * np.array([math.cos(angle), math.sin(angle)])
-            target = _target(film.frozen(place, speed, temperature), load, speed)
-            points.append(_point(target, *_start_at(target, *place), 0))
+            target = _target(quasi_static(film.frozen(place, speed, temperature)), load, speed)
+            points.append(target.at(*_start_at(target, *place)))
     for point in sorted(points, key=lambda point: point.norm)[:TRIED]:
         yield np.array(point.position)
 
@@ -785,7 +798,8 @@ def _approach(film: FieldFilm, load: Array, speed: float, place: Array, temperat
             state = film.warmed_from(place, speed, temperature)
         except FilmContactError:
             break
-        point, moved = _stepped(_target(state.film, load, speed), place, share * _STEP)
+        target = _target(quasi_static(state.film), load, speed)
+        point, moved = _stepped(target, place, share * _STEP)
         if not math.isfinite(point.norm) or (k > HOPELESS_ROUNDS and point.norm > HOPELESS):
             break
         # The empty cells follow the journal, more than the slope of a film knows that is frozen.
@@ -801,19 +815,13 @@ def _approach(film: FieldFilm, load: Array, speed: float, place: Array, temperat
     return best[1]
 
 
-def _stepped(target: StaticTarget, place: Array, longest: float) -> tuple[StaticPoint, Array]:
+def _stepped(target: StaticTarget, place: Array, longest: float) -> tuple[Any, Array]:
     """Return the residual at a place, and where one step of limited length leads from there."""
     s, phi = _start_at(target, *place)
-    here = _point(target, s, phi, 0)
-    there = _newton(target, s, phi, most=1)
+    here = target.at(s, phi)
+    there = target.newton(s, phi, most=1)
     way = max(abs(there.s - s), abs(there.phi - phi))
     if way > longest:
         part = longest / way
-        there = _point(target, s + part * (there.s - s), phi + part * (there.phi - phi), 1)
+        there = target.at(s + part * (there.s - s), phi + part * (there.phi - phi))
     return here, np.array(there.position) if math.isfinite(there.norm) else place
-
-
-def _target(film: Any, load: Array, speed: float) -> StaticTarget:
-    x, y = -float(load[0]), -float(load[1])
-    still = quasi_static(film)
-    return StaticTarget(prepared_tangent(still), still.clearance, speed, x, y, 1.0, 0.0)

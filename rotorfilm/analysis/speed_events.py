@@ -200,7 +200,8 @@ def secant_speed(
 STEP = 1e-3
 """Relative change of speed over which K and C of films are differentiated."""
 
-_STEPS = 25
+_STEPS, _HALVED = 60, 16
+"""Most steps, and those after which Newton's method goes round a jump of a film on a grid and halves it."""
 
 
 class Start(NamedTuple):
@@ -273,12 +274,15 @@ def whirl_of(
 ) -> tuple[Whirl, int]:
     """Return the whirl to which something happens, near another one, and how many speeds that took.
 
+    K and C of a film on a grid jump a little where its rupture passes a node: the event may be in a jump.
+
     Raises
     ------
     ConvergenceError
         If Newton's method in the speed does not end.
     """
     speed, value, load = start
+    ends: dict[bool, float] = {}
     for count in range(1, _STEPS + 1):
         at = rotor_equilibrium(rotor, bearings, speed)
         whirl = Whirl(at, *whirl_near(rotor.structure, at, event.frequency(value, speed), value, load))
@@ -287,6 +291,9 @@ def whirl_of(
             return whirl, count
         value, load = whirl.value, whirl.right
         step = -lead / event.rate(value_rate(rotor.structure, whirl, turning))
+        ends[lead > 0.0] = speed
+        if count > _HALVED and len(ends) == 2:
+            step = 0.5 * sum(ends.values()) - speed
         if count > PATIENCE and abs(step) < ROUNDED * speed:
             return whirl, count
         speed += float(np.clip(step, -0.1 * speed, 0.1 * speed))

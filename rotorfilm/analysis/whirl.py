@@ -38,6 +38,8 @@ from ..core.port import (
     rigid_exponents,
     small_motion,
     states_rest,
+    warn_of_flow,
+    warn_of_load,
 )
 from ..core.readable import Readable
 from ..core.results import (
@@ -48,8 +50,8 @@ from ..core.results import (
     WhirlThreshold,
 )
 from ..core.signals import PLANAR
-from .coefficients import film_coefficients
-from .equilibrium import checked_load, equilibrium
+from .coefficients import coefficients_at, film_coefficients
+from .equilibrium import checked_load, equilibrium, settled
 from .threads import one_blas_thread
 
 _POINTS_PER_DECADE = 12
@@ -176,16 +178,36 @@ def _searched(
     """Return the threshold by stiffness and damping at the equilibria, from the first speed that has one."""
     stable: list[bool] = []
     before: Coefficients | None = None
-    for speed in speeds[first:].tolist():
-        with _passing(passed):
-            at = film_coefficients(reaction, equilibrium(reaction, load, speed).position, speed)
-        if damping_has_rank_one(at):
-            return WhirlThreshold(**NO_THRESHOLD, reason=critical_mass(at).reason)
-        stable.append(is_stable(at, mass))
-        if before is not None and stable[-2:] == [True, False]:
-            return _refined(reaction, load, mass, (before, at), passed)
-        before = at
-    return WhirlThreshold(**NO_THRESHOLD, reason=_why_none(stable, speeds))
+    with _passing(passed):
+        for at in _coefficients_over(reaction, load, speeds[first:].tolist()):
+            if damping_has_rank_one(at):
+                return WhirlThreshold(**NO_THRESHOLD, reason=critical_mass(at).reason)
+            stable.append(is_stable(at, mass))
+            if before is not None and stable[-2:] == [True, False]:
+                break
+            before = at
+        else:
+            return WhirlThreshold(**NO_THRESHOLD, reason=_why_none(stable, speeds))
+    return _refined(reaction, load, mass, (before, at), passed)
+
+
+_AT_ONCE = 8
+"""Equilibria that are searched at once: those beyond a threshold are in vain."""
+
+
+def _coefficients_over(reaction: Any, load: Array, speeds: list[float]) -> Iterator[Coefficients]:
+    """Yield stiffness and damping at the equilibria of speeds, with the warnings of each."""
+    for k in range(0, len(speeds), _AT_ONCE):
+        part = speeds[k : k + _AT_ONCE]
+        rests = settled(reaction, [load], part)
+        if None in rests:
+            for speed in part:
+                yield film_coefficients(reaction, equilibrium(reaction, load, speed).position, speed)
+            continue
+        warn_of_load(reaction, load)
+        for at in coefficients_at(reaction, cast(list[Equilibrium], rests)):
+            warn_of_flow(reaction, at.speed)
+            yield at
 
 
 def _settling(
@@ -440,9 +462,10 @@ def _counted(film: FrequencyDependentCoefficients) -> VerifiedCriticalMass:
 
 def effective_stiffness(coefficients: Coefficients) -> float:
     """Return k = m nu^2 [N/m], the stiffness that the whirling rotor feels at the border."""
-    K, C = coefficients.stiffness, coefficients.damping
-    mixed = K[0, 0] * C[1, 1] + K[1, 1] * C[0, 0] - K[0, 1] * C[1, 0] - K[1, 0] * C[0, 1]
-    return float(mixed / (C[0, 0] + C[1, 1]))
+    (k_xx, k_xy), (k_yx, k_yy) = coefficients.stiffness.tolist()
+    (c_xx, c_xy), (c_yx, c_yy) = coefficients.damping.tolist()
+    mixed = k_xx * c_yy + k_yy * c_xx - k_xy * c_yx - k_yx * c_xy
+    return float(np.divide(mixed, c_xx + c_yy))
 
 
 def damping_has_rank_one(coefficients: Coefficients) -> bool:
@@ -491,11 +514,13 @@ def _why_no_border(coefficients: Coefficients) -> str:
 
 
 def _determinant(matrix: np.ndarray) -> float:
-    return float(matrix[0, 0] * matrix[1, 1] - matrix[0, 1] * matrix[1, 0])
+    (xx, xy), (yx, yy) = matrix.tolist()
+    return float(xx * yy - xy * yx)
 
 
 def _shifted_determinant(coefficients: Coefficients, k: float) -> float:
-    return _determinant(coefficients.stiffness - k * np.eye(2))
+    (xx, xy), (yx, yy) = coefficients.stiffness.tolist()
+    return float((xx - k) * (yy - k) - xy * yx)
 
 
 # The onset of whirl on a frequency-dependent film, with the proof that no whirl was missed.

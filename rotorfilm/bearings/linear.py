@@ -28,7 +28,7 @@ from ..core.results import Equilibrium
 from ..core.signals import FREEDOMS, PLANAR, Signal, checked_freedoms, force_outputs, journal_inputs
 from ..core.units import UNITS, parse_quantity, si_name
 from ..native.film_call import FilmCall
-from ..native.spec import NativeSpec, linear_kernel
+from ..native.spec import NativeSpec, linear_kernel, parameter
 from .reaction import NOMINAL_SPEED, Feedthrough, broadcast_state, without_overflow
 
 NOMINAL_LENGTH = 1e-4
@@ -275,6 +275,29 @@ class TabulatedBearing(Plottable, Tabled, LinearReaction):
 
         return without_overflow(law, *broadcast_state(position, velocity, speed, len(self.freedoms)))
 
+    def native(self) -> NativeSpec | None:
+        """Return the kernel, with all numbers as parameters; None beyond x, y, and for a subclass."""
+        if type(self) is not TabulatedBearing or self.freedoms != PLANAR:
+            return None
+        columns = {"speeds": np.asarray(self.speeds)}
+        for letter, table in zip("kc", self._tables, strict=True):
+            columns |= {
+                f"{letter}{i}{j}": table[:, a, b] for (a, i), (b, j) in product(enumerate("xy"), repeat=2)
+            }
+        parameters = [
+            parameter(f"{name}_{k + 1}", unit, value, text, minimum=-math.inf, tunable=name != "speeds")
+            for name, values in columns.items()
+            for unit, text in [_MEANINGS[name[0]]]
+            for k, value in enumerate(values.tolist())
+        ]
+        size = np.array([float(len(columns["speeds"]))])
+        return NativeSpec(
+            kernel="tabulated",
+            parameters=tuple(parameters),
+            tables={"size": size},
+            sampled=("speeds", "speed"),
+        )
+
     @property
     def _tables(self) -> tuple[Array, Array]:
         return np.asarray(self.stiffness), np.asarray(self.damping)
@@ -294,6 +317,14 @@ class TabulatedBearing(Plottable, Tabled, LinearReaction):
             return (0.0 * stiffness, 0.0 * damping) if derivative else (stiffness, damping)
         stiffness, damping = (curve(omega, nu=derivative) for curve in self._curves)
         return stiffness, damping
+
+
+_MEANINGS = {
+    "s": ("rad/s", "angular speed of a row of the table; the speeds rise"),
+    "k": ("N/m", "stiffness at the speeds of the table: minus the force by a displacement"),
+    "c": ("N.s/m", "damping at the speeds of the table: minus the force by a velocity"),
+}
+"""Unit and meaning of the columns of a table, by their first letter."""
 
 
 def _rest_columns(rests: tuple[Equilibrium, ...]) -> Iterator[Column]:

@@ -100,6 +100,7 @@ if TYPE_CHECKING:
     from .whirl_verdicts import (
         plot_journal_stability as plot_journal_stability,
         plot_thresholds as plot_thresholds,
+        verdict_table as verdict_table,
     )
 else:
     show(__name__)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,6 +13,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Bbox
 
 from ..studies.journal_accuracy import FilmFamily
+from .picture import NoteMark
 
 
 def new_axes(title: str, *, size: tuple[float, float] = (6.4, 4.8)) -> Axes:
@@ -29,56 +29,6 @@ def new_figure(*, size: tuple[float, float]) -> Figure:
     figure = Figure(figsize=size, layout="constrained")
     FigureCanvasAgg(figure)
     return figure
-
-
-def new_grid(
-    count: int, *, columns: int, size: tuple[float, float], title: str = "", more: float = 0.0
-) -> list[Axes]:
-    """Return so many Axes of one figure, row by row.
-
-    Parameters
-    ----------
-    count, columns : int
-        Number of Axes, and of Axes in a row.
-    size : (float, float) [inch]
-        Size of one of them.
-    title : str
-        Title of the figure.
-    more : float [inch]
-        Height beside that of the Axes.
-    """
-    columns = min(columns, count)
-    rows = math.ceil(count / columns)
-    figure = new_figure(size=(columns * size[0], rows * size[1] + more))
-    figure.suptitle(title, fontsize=10)
-    return [figure.add_subplot(rows, columns, k + 1) for k in range(count)]
-
-
-def labeled(axes: Axes, x: str, y: str, *, legend: float = 8.0, **more: Any) -> Axes:
-    """Return Axes with labels, a legend in type of this size [points], and more as of `Axes.set`."""
-    axes.set(xlabel=x, ylabel=y, **more)
-    axes.legend(fontsize=legend)
-    return axes
-
-
-def with_grids(*shown: Axes) -> None:
-    """Give several Axes a grid and a legend each."""
-    for axes in shown:
-        axes.grid(visible=True, alpha=0.3)
-        axes.legend(fontsize=8)
-
-
-def add_color_bar(axes: Axes, mesh: Any, label: str) -> None:
-    """Draw the scale of the colors of a mesh beside it."""
-    figure = axes.get_figure()
-    assert isinstance(figure, Figure)
-    figure.colorbar(mesh, ax=axes, label=label)
-
-
-def draw_circle(axes: Axes, label: str | None = None) -> None:
-    """Draw the clearance circle, in clearances."""
-    turn = np.linspace(0.0, 2.0 * np.pi, 361)
-    axes.plot(np.cos(turn), np.sin(turn), "k-", linewidth=1.0, label=label)
 
 
 def legend_beside(axes: Axes) -> None:
@@ -101,17 +51,12 @@ MARKER = 3.5
 """Half the size of the square around a point that no label may cover, smaller than its dot [points]."""
 
 
-class Label(NamedTuple):
-    """Text in a color beside a point in data coordinates."""
-
-    x: float
-    y: float
-    text: str
-    color: str
-
-
 def place_labels(
-    axes: Axes, labels: Sequence[Label], *, obstacles: Sequence[tuple[float, float]] = (), size: float = 7.5
+    axes: Axes,
+    labels: Sequence[NoteMark],
+    *,
+    obstacles: Sequence[tuple[float, float]] = (),
+    size: float = 7.5,
 ) -> None:
     """Write each label near its point, clear of all points, of the other labels and of the frame.
 
@@ -121,7 +66,7 @@ def place_labels(
     Parameters
     ----------
     axes : Axes
-    labels : sequence of Label
+    labels : sequence of NoteMark
     obstacles : sequence of (float, float), optional
         Further points to keep clear, in data coordinates.
     size : float, optional

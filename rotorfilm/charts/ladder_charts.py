@@ -1,28 +1,29 @@
-"""Charts of studies: one function draws all, from a record of each."""
+"""Pictures of studies: one function describes all, from a record of each."""
 
 from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import partial
 from itertools import cycle, islice, pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from ..studies import FilmFamily, HeatModel, StudyResult, StudyRow, pareto_front
-from .canvas import FAMILY_COLORS, FRONT, Label, new_grid, place_labels
+from .canvas import FAMILY_COLORS, FRONT
+from .picture import CurveMark, LevelMark, Mark, NoteMark, Picture, PicturePanel
 
 Line = tuple[str, str, str]
 """Color, line and mark."""
 
-IN_TURN = tuple((f"C{number}", "-", mark) for number, mark in enumerate("osD^v<>"))
+IN_TURN = tuple((f"C{number}", "-", mark) for number, mark in enumerate("osD^vx*"))
 """Lines of families that have none of their own."""
+
+
+ROUND_OFF = 1e-9
+"""Share of the largest entry below which one that may have either sign is not drawn."""
 
 
 class StudyPanel(NamedTuple):
@@ -39,7 +40,8 @@ class StudyPanel(NamedTuple):
     crossed : bool
         Whether runs without an error are drawn as crosses at the top.
     scale : str
-        Scale of the second axis; that of the first is logarithmic.
+        Scale of the second axis, "log" or "linear", or "sizes", logarithmic with negative values dotted;
+        that of the first is logarithmic.
     """
 
     x: str
@@ -63,20 +65,14 @@ class StudyStyle:
         Color, or color, line and mark, by the family of a rung.
     in_turn : sequence of (str, str, str)
         Color, line and mark of families that are not among these.
-    dots : (str, str)
-        What a filled and an open dot mean.
     joined : bool
         Whether the rungs of a family are joined by a line, over all cases.
-    legend_below : bool
-        Whether the legend of joined rungs is below all panels.
-    labels : bool
-        Whether marks have labels.
     band : str
         Condition with the error of the reference, below which errors mean nothing.
     champion : str
         Family whose gain over the others is shown.
     further : sequence of callable
-        Draw the result into further panels.
+        Describe further panels of the result.
     columns : int
         Panels in a row.
     size : (float, float) [inch]
@@ -87,43 +83,23 @@ class StudyStyle:
     panels: Sequence[StudyPanel]
     lines: Mapping[Any, str | Line] = field(default_factory=dict)
     in_turn: Sequence[Line] = IN_TURN
-    dots: tuple[str, str] = ("99 % of the states", "median")
     joined: bool = False
-    legend_below: bool = False
-    labels: bool = True
     band: str = ""
     champion: str = ""
-    further: Sequence[Callable[[Axes, StudyResult], object]] = ()
+    further: Sequence[Callable[[StudyResult], PicturePanel]] = ()
     columns: int = 2
     size: tuple[float, float] = (6.6, 6.2)
 
-
-class DrawnPanel(NamedTuple):
-    """One panel of a result: where it is drawn, what, how, and of which rungs."""
-
-    axes: Axes
-    panel: StudyPanel
-    style: StudyStyle
-    rungs: Sequence[StudyRow]
-    band: float
-
-    @property
-    def shown(self) -> list[StudyRow]:
-        """Rungs that have an error and a cost."""
-        x, y = self.panel.x, self.panel.y
-        least = 0.0 if self.panel.scale == "log" else -math.inf
-        return [rung for rung in self.rungs if rung[x] and rung[y] is not None and rung[y] > least]
-
-    def line(self, family: str) -> Line:
-        """Return color, line and mark of a family."""
-        number = list(dict.fromkeys(rung.family for rung in self.rungs)).index(family)
-        color, line, mark = next(islice(cycle(self.style.in_turn), number, None))
-        found = self.style.lines.get(family, color)
+    def line(self, family: str, rungs: Sequence[StudyRow]) -> Line:
+        """Return color, line and mark of a family among those of a study."""
+        number = list(dict.fromkeys(rung.family for rung in rungs)).index(family)
+        color, line, mark = next(islice(cycle(self.in_turn), number, None))
+        found = self.lines.get(family, color)
         return (found, line, mark) if isinstance(found, str) else found
 
 
-def plot_study(result: StudyResult, *, axes: Axes | None = None) -> list[Axes]:
-    """Draw errors over costs of the models of a study.
+def plot_study(result: StudyResult) -> Picture:
+    """Describe errors over costs of the models of a study.
 
     A filled dot is a high percentile of the error of a model, an open one its median. A gray band is the
     error of the reference, below which no error can be told.
@@ -131,139 +107,112 @@ def plot_study(result: StudyResult, *, axes: Axes | None = None) -> list[Axes]:
     Parameters
     ----------
     result : StudyResult
-    axes : Axes, optional
-        Where to draw the first panel alone, in a figure of its final size; a new figure with all by default.
-
-    Returns
-    -------
-    list of Axes
     """
     style = STYLES[result.study]
     cases = [""] if style.joined else list(dict.fromkeys(rung.case for rung in result.rungs))
-    wanted = [(case, panel) for panel in style.panels for case in cases][: None if axes is None else 1]
-    shown = _new_axes(result, style, len(wanted)) if axes is None else [axes]
-    drawn = []
-    for one, (case, panel) in zip(shown, wanted, strict=False):
-        rungs = [rung for rung in result.rungs if case in ("", rung.case)]
-        rungs = [rung for rung in rungs if rung.family in (panel.families or (rung.family,))]
-        drawn.append(DrawnPanel(one, panel, style, rungs, result.conditions.get(style.band, 0.0)))
-        one.set_title(case, fontsize=10)
-        _draw_panel(drawn[-1])
-    for one, draw in zip(shown[len(wanted) :], style.further, strict=False):
-        draw(one, result)
-    _add_legend(drawn[0], result, alone=axes is not None)
-    for each in drawn:
-        _write_labels(each)
-    return shown
-
-
-def _new_axes(result: StudyResult, style: StudyStyle, panels: int) -> list[Axes]:
-    count = panels + len(style.further)
+    panels = [_panel(result, style, panel, case) for panel in style.panels for case in cases]
+    panels += [describe(result) for describe in style.further]
+    last = min(style.columns, len(panels)) - 1
+    panels[last] = panels[last]._replace(legend="beside")
     numbers = {name: value for name, value in result.notes.items() if isinstance(value, float)}
     told = {"reference [-]": result.reference, **result.conditions, **numbers}
     texts = (f"{name.partition(' [')[0]}: {_text(value)}" for name, value in told.items())
-    width = style.size[0] * min(style.columns, count)
-    lines = [style.title, *textwrap.wrap("; ".join(texts), int(11.0 * width))]
-    return new_grid(count, columns=style.columns, size=style.size, title="\n".join(lines), more=1.2)
+    lines = [style.title, *textwrap.wrap("; ".join(texts), int(11.0 * style.size[0] * (last + 1)))]
+    return Picture(tuple(panels), style.columns, style.size, "\n".join(lines))
 
 
 def _text(value: object) -> str:
     return f"{value:.3g}" if isinstance(value, float) else str(value)
 
 
-def _draw_panel(drawn: DrawnPanel) -> None:
-    axes, panel, style, _, band = drawn
-    axes.set(xscale="log", xlabel=panel.x, ylabel=panel.y)
-    axes.set_yscale(panel.scale, **({"linthresh": 1.0} if panel.scale == "symlog" else {}))
-    axes.grid(visible=True, which="major", alpha=0.3)
+def _panel(result: StudyResult, style: StudyStyle, panel: StudyPanel, case: str) -> PicturePanel:
+    rungs = [one for one in result.rungs if case in ("", one.case)]
+    rungs = [one for one in rungs if one.family in (panel.families or (one.family,))]
+    least = 0.0 if panel.scale == "log" else -math.inf
+    shown = [one for one in rungs if one[panel.x] and one[panel.y] is not None and one[panel.y] > least]
+    log = "x" if panel.scale == "linear" else "xy"
+    y = f"{panel.y}, negative dotted" if panel.scale == "sizes" else panel.y
+    found = PicturePanel((), panel.x, y, case, log=log, legend="none")
+    families = {one.family: style.line(one.family, rungs) for one in rungs}
     if style.joined:
-        _draw_families(drawn)
-        return
-    if band:
-        axes.axhspan(1e-12, band, color="0.85", zorder=0)
-    for rung in drawn.shown:
-        _draw_rung(axes, panel, rung, drawn.line(rung.family)[0])
-    costs, errors = ([rung[name] for rung in drawn.shown] for name in (panel.x, panel.y))
-    errors += [rung[panel.median] for rung in drawn.shown if panel.median]
-    axes.set_xlim(0.4 * min(costs), 4.0 * max(costs))
-    lowest = min(filter(None, (*errors, band)))
-    axes.set_ylim(10.0 ** np.floor(np.log10(0.5 * lowest)), 6.0 * max(errors))
+        return found._replace(marks=list(_joined(panel, families, rungs, shown)))
+    y = f"{panel.y} filled, {panel.median} open" if panel.median else y
+    band = result.conditions.get(style.band, 0.0)
+    marks: list[Mark] = [LevelMark(1e-12, "error of the reference", "0.5", to=band)] if band else []
     if style.champion:
-        _draw_front(axes, panel, drawn.shown, "-")
-        _draw_front(axes, panel, [rung for rung in drawn.shown if rung.family != style.champion], ":")
+        marks += _fronts(panel, shown, style.champion)
+    for family, (color, *_) in families.items():
+        marks += _dots(panel, [one for one in shown if one.family == family], family, color)
+    for one in shown:
+        text, color = one.label or one.name, families[one.family][0]
+        marks.append(NoteMark(one[panel.x], one[panel.y], text, color, clear=True))
+    costs, errors = columns_of(shown, panel.x, panel.y)
+    lowest = min(filter(None, (*errors, *(one[panel.median or panel.y] for one in shown), band)))
+    bottom = 10.0 ** math.floor(math.log10(0.5 * lowest))
+    ends = (0.4 * min(costs), 4.0 * max(costs)), (bottom, 6.0 * max(errors))
+    return found._replace(marks=marks, y=y, x_limits=ends[0], y_limits=ends[1])
 
 
-def _draw_rung(axes: Axes, panel: StudyPanel, rung: StudyRow, color: str) -> None:
-    x, high = rung[panel.x], rung[panel.y]
+def columns_of(rungs: Sequence[StudyRow], x: str, y: str) -> tuple[list[float], list[float]]:
+    """Return two columns of some rows."""
+    return [rung[x] for rung in rungs], [rung[y] for rung in rungs]
+
+
+def _dots(panel: StudyPanel, rungs: Sequence[StudyRow], family: str, color: str) -> Iterator[Mark]:
+    x, high = columns_of(rungs, panel.x, panel.y)
     if panel.median:
-        axes.plot([x, x], [rung[panel.median], high], "-", color=color, linewidth=1.0, alpha=0.5)
-        axes.plot(x, rung[panel.median], "o", color=color, markerfacecolor="white", markersize=4.5)
-    axes.plot(x, high, "o", color=color, markersize=7)
+        low = [one[panel.median] for one in rungs]
+        pairs = np.array([low, high, np.full(len(low), np.nan)]).T.ravel()
+        yield CurveMark(np.repeat(x, 3), pairs, "", color, width=0.6)
+        yield CurveMark(x, low, "", color, "", marker="o", filled=False, size=4.5)
+    yield CurveMark(x, high, family, color, "", marker="o", size=7.0)
 
 
-def _draw_families(drawn: DrawnPanel) -> None:
-    axes, panel, _, rungs, _ = drawn
-    for family in dict.fromkeys(rung.family for rung in rungs):
-        good = [rung for rung in drawn.shown if rung.family == family]
-        color, line, mark = drawn.line(family)
-        points = ([rung[name] for rung in good] for name in (panel.x, panel.y))
-        axes.plot(*points, line, marker=mark, color=color, label=family)
+def _joined(
+    panel: StudyPanel, families: Mapping[str, Line], rungs: Sequence[StudyRow], shown: Sequence[StudyRow]
+) -> Iterator[Mark]:
+    for family, (color, line, mark) in families.items():
+        x, values = columns_of([one for one in shown if one.family == family], panel.x, panel.y)
+        y = np.array(values)
+        if panel.scale == "sizes":
+            largest = max(abs(one[panel.y]) for one in shown)
+            y = np.where(np.abs(y) < ROUND_OFF * largest, np.nan, y)
+            yield CurveMark(x, np.where(y < 0.0, -y, np.nan), "", color, ":", marker=mark)
+            y = np.where(y < 0.0, np.nan, y)
+        yield CurveMark(x, y, family, color, line, marker=mark)
         if panel.crossed:
-            top = 3.0 * max(rung[panel.y] for rung in drawn.shown)
-            bad = [rung[panel.x] for rung in rungs if rung.family == family and rung[panel.y] is None]
-            axes.plot(bad, [top] * len(bad), "x", color=color)
+            top = 3.0 * max(rung[panel.y] for rung in shown)
+            bad = [one[panel.x] for one in rungs if one.family == family and one[panel.y] is None]
+            yield CurveMark(bad, [top] * len(bad), "", color, "", marker="x")
 
 
-def _draw_front(axes: Axes, panel: StudyPanel, rungs: Sequence[StudyRow], style: str) -> None:
-    """Draw the staircase below which no rung lies, by cost and error."""
-    if not rungs:
+def _fronts(panel: StudyPanel, rungs: Sequence[StudyRow], champion: str) -> Iterator[Mark]:
+    """Yield the staircases below which no rung lies, with and without the champion, and what it gains."""
+    others = [rung for rung in rungs if rung.family != champion]
+    for shown, label, dash in (
+        (rungs, "best at its cost", "-"),
+        (others, f"the same without the {champion}", ":"),
+    ):
+        if shown:
+            yield CurveMark(*_staircase(panel, shown), label, FRONT, dash, 1.3)
+    first = [rung for rung in rungs if rung.family == champion]
+    if not first or not others:
         return
-    costs, errors = ([rung[name] for rung in rungs] for name in (panel.x, panel.y))
+    best = min(others, key=lambda rung: float(rung[panel.y]))
+    ends, level = (first[0][panel.x], best[panel.x]), best[panel.y]
+    yield CurveMark(ends, [level, level], "", FRONT, "--", 1.0)
+    gain = f"{champion} {_rounded(ends[1] / ends[0])} times cheaper"
+    yield NoteMark((ends[0] * ends[1]) ** 0.5, level, gain, FRONT)
+
+
+def _staircase(panel: StudyPanel, rungs: Sequence[StudyRow]) -> tuple[list[float], list[float]]:
+    costs, errors = columns_of(rungs, panel.x, panel.y)
     corners = [(costs[i], errors[i]) for i in pareto_front(costs, errors)]
     x, y = [corners[0][0]], [1e6]
     for (_, high), (x_next, y_next) in pairwise([(0.0, 1e6), *corners]):
         x += [x_next, x_next]
         y += [high, y_next]
-    axes.plot([*x, 1e9], [*y, y[-1]], style, color=FRONT, linewidth=1.3, zorder=0.5)
-
-
-def _write_labels(drawn: DrawnPanel) -> None:
-    """Write the labels, once limits and size are final."""
-    axes, panel, style, _, band = drawn
-    if not style.labels:
-        return
-    labels = [
-        Label(rung[panel.x], rung[panel.y], rung.label or rung.name, drawn.line(rung.family)[0])
-        for rung in drawn.shown
-    ]
-    medians = [(rung[panel.x], rung[panel.median]) for rung in drawn.shown if panel.median]
-    place_labels(axes, labels, obstacles=medians)
-    if style.champion:
-        _draw_gain(axes, panel, style, drawn.shown)
-    if band:
-        told = "gray: error of the reference "
-        axes.text(0.99, 0.01, told, transform=axes.transAxes, ha="right", fontsize=8, color="0.35")
-
-
-def _draw_gain(axes: Axes, panel: StudyPanel, style: StudyStyle, rungs: Sequence[StudyRow]) -> None:
-    """Draw how much cheaper the champion is than the closest of the other rungs."""
-    first = [rung for rung in rungs if rung.family == style.champion]
-    others = [rung for rung in rungs if rung.family != style.champion]
-    if not first or not others:
-        return
-    best = min(others, key=lambda rung: float(rung[panel.y]))
-    ends, level = (first[0][panel.x], best[panel.x]), best[panel.y]
-    arrow = {"arrowstyle": "<|-|>", "color": FRONT, "linewidth": 1.0, "shrinkA": 0.0, "shrinkB": 4.0}
-    axes.annotate("", (ends[1], level), (ends[0], level), arrowprops=arrow)
-    axes.text(
-        (ends[0] * ends[1]) ** 0.5,
-        1.15 * level,
-        f"{style.champion} {_rounded(ends[1] / ends[0])} times cheaper",
-        ha="center",
-        va="bottom",
-        fontsize=8.5,
-        color=FRONT,
-    )
+    return [*x, 1e9], [*y, y[-1]]
 
 
 def _rounded(ratio: float) -> str:
@@ -272,63 +221,29 @@ def _rounded(ratio: float) -> str:
     return f"{round(ratio, -digits):,.0f}".replace(",", " ")
 
 
-def _add_legend(drawn: DrawnPanel, result: StudyResult, *, alone: bool) -> None:
-    axes, style = drawn.axes, drawn.style
-    figure = axes.get_figure()
-    assert isinstance(figure, Figure)
-    below: dict[str, Any] = {"loc": "outside lower center", "fontsize": 8.5, "frameon": False}
-    if style.joined:
-        if style.legend_below:
-            figure.legend(*axes.get_legend_handles_labels(), ncols=4, **below)
-        else:
-            axes.legend(fontsize=8)
-        return
-    dot = partial(Line2D, [], [], marker="o", linestyle="")
-    families = dict.fromkeys(rung.family for rung in result.rungs if rung.family in style.lines)
-    colors = {family: style.lines[family] for family in families}
-    handles = [
-        *(dot(color=color, label=family) for family, color in colors.items() if isinstance(color, str)),
-        dot(color="0.3", label=style.dots[0]),
-        dot(color="0.3", markerfacecolor="w", label=style.dots[1]),
-    ]
-    if style.champion:
-        handles += [
-            Line2D([], [], color=FRONT, label="best at its cost (99 %)"),
-            Line2D([], [], color=FRONT, linestyle=":", label=f"the same without the {style.champion}"),
-        ]
-    if alone:
-        axes.legend(handles=handles, fontsize=7.5, loc="upper right", framealpha=1.0)
-    else:
-        figure.legend(handles=handles, ncols=6, **below)
-
-
 # Further panels of the melting bush: the runs of its models, the closed form of the shaft.
 
 
-def _draw_bush_angles(axes: Axes, result: StudyResult) -> None:
-    """Draw the contact angle by the last model of each family, and by the reference."""
-    for rung in {rung.family: rung for rung in result.rungs}.values():
-        assert rung.answer is not None
-        axes.plot(result.notes["times"], rung.answer, label=rung.name)
-    axes.plot(result.notes["times"], result.notes["exact"], "k:", label="reference")
-    axes.set(xlabel="time [s]", ylabel="half contact angle [rad]", title="Growing load")
-    axes.grid(visible=True, alpha=0.3)
-    axes.legend(fontsize=7.5)
+def _bush_angles(result: StudyResult) -> PicturePanel:
+    """Describe the contact angle by the last model of each family, and by the reference."""
+    times, last = result.notes["times"], {rung.family: rung for rung in result.rungs}.values()
+    marks = []
+    for k, one in enumerate(last):
+        assert one.answer is not None
+        marks.append(CurveMark(times, one.answer, one.name, f"C{k}"))
+    marks.append(CurveMark(times, result.notes["exact"], "reference", "k", ":"))
+    return PicturePanel(marks, "time [s]", "half contact angle [rad]", "Growing load")
 
 
-def _draw_shaft_flux(axes: Axes, result: StudyResult) -> None:
-    """Draw the error of the closed form (2.13) over the Biot number, by shaft radius / half length."""
+def _shaft_flux(result: StudyResult) -> PicturePanel:
+    """Describe the error of the closed form (2.13) over the Biot number, by shaft radius / half length."""
     cooling, ratio, error = (np.array(column) for column in result.notes["shaft"].values())
-    for one in dict.fromkeys(ratio.tolist()):
-        axes.plot(cooling[ratio == one], 100.0 * error[ratio == one], label=f"R_1/l = {one:g}")
-    axes.set(
-        title="Closed form of the shaft heat (2.13)",
-        xlabel="Biot number of the shaft",
-        ylabel="error against the mixed problem [%]",
-        ylim=(0.0, None),
-    )
-    axes.grid(visible=True, alpha=0.3)
-    axes.legend(fontsize=7.5)
+    marks = [
+        CurveMark(cooling[ratio == one], 100.0 * error[ratio == one], f"R_1/l = {one:g}", f"C{k}")
+        for k, one in enumerate(dict.fromkeys(ratio.tolist()))
+    ]
+    text = "Biot number of the shaft", "error against the mixed problem [%]"
+    return PicturePanel(marks, *text, "Closed form of the shaft heat (2.13)", y_limits=(0.0, None))
 
 
 # The record of each study.
@@ -341,7 +256,7 @@ SHORT = "99 % error against the short film [1]"
 BAND = "reference error, 99 % [1]"
 S = "S over the assembled clearance [1]"
 
-ENTRIES = {"xx": "log", "xy": "symlog", "yx": "symlog", "yy": "log"}
+ENTRIES = {"xx": "log", "xy": "sizes", "yx": "sizes", "yy": "log"}
 """Scales of the entries of a matrix: some change their sign."""
 
 TYPE_LINES = (
@@ -402,21 +317,18 @@ STYLES = {
             HeatModel.BUSH: "#1f4fb4",
             HeatModel.LAYERS: "#2ca02c",
         },
-        dots=("position of the journal", "power loss"),
         size=(7.0, 4.6),
     ),
     "rolling_ladder": StudyStyle(
         title="Models of ball bearings: error of the stiffness against its cost",
         panels=(StudyPanel("force and derivatives [s]", "90 % error of K [1]", "median error of K [1]"),),
-        dots=("90 % of the states", "median"),
         size=(7.6, 4.8),
     ),
     "bush": StudyStyle(
         title="Models of the polymer bush under a growing load",
         panels=(StudyPanel("time of the run [s]", "angle error [1]"),),
         joined=True,
-        labels=False,
-        further=(_draw_bush_angles, _draw_shaft_flux),
+        further=(_bush_angles, _shaft_flux),
         columns=3,
         size=(5.0, 4.4),
     ),
@@ -434,7 +346,6 @@ STYLES = {
         ),
         lines=SCHEME_LINES,
         joined=True,
-        labels=False,
         size=(5.5, 4.4),
     ),
     "bearings": StudyStyle(
@@ -446,8 +357,6 @@ STYLES = {
         ),
         in_turn=TYPE_LINES,
         joined=True,
-        legend_below=True,
-        labels=False,
         columns=4,
         size=(3.75, 3.6),
     ),

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..core.files import write_atomically
-from .canvas import new_figure
+from .canvas import new_figure, place_labels
 from .picture import BarsMark, CurveMark, FieldMark, LevelMark, NoteMark, Picture, PicturePanel
 
 
@@ -21,6 +21,11 @@ def draw(picture: Picture, given: Any = None) -> list[Axes]:
     shown = _new(picture) if given is None else list(np.atleast_1d(given))
     for axes, panel in zip(shown, picture.panels, strict=True):
         _draw_panel(axes, panel)
+    for axes, panel in zip(shown, picture.panels, strict=True):
+        if notes := [one for one in panel.marks if isinstance(one, NoteMark) and one.clear]:
+            dots = [one for one in panel.marks if isinstance(one, CurveMark) and one.marker]
+            places = [np.column_stack([one.x, one.y]) for one in dots]
+            place_labels(axes, notes, obstacles=[tuple(point) for one in places for point in one.tolist()])
     return shown
 
 
@@ -162,6 +167,8 @@ def _(one: LevelMark, axes: Any) -> None:
 
 @draw_mark.register
 def _(one: NoteMark, axes: Any) -> None:
+    if one.clear:
+        return  # when sizes and limits are final
     axes.annotate(
         one.text, (one.x, one.y), (3, 3), textcoords="offset points", fontsize=8, color=one.color, zorder=5
     )

@@ -68,7 +68,7 @@ def draw(picture: Picture) -> Any:
     figure.update_layout(
         width=columns * width + 120.0,
         height=rows * height,
-        title=picture.title or None,
+        title=picture.title.replace("\n", "<br>") or None,
         template="plotly_white",
         margin={"t": 60},
     )

@@ -181,12 +181,15 @@ class NoteMark(NamedTuple):
     x, y : float
     text, color : str
         The text, and its color.
+    clear : bool
+        Whether matplotlib moves it clear of other such texts and of all points.
     """
 
     x: float
     y: float
     text: str
     color: str = "k"
+    clear: bool = False
 
 
 Mark = CurveMark | FieldMark | BarsMark | LevelMark | NoteMark

@@ -1,19 +1,16 @@
-"""Charts of the atlas of limits, of whirl on types of bearings, and of coupling schemes."""
+"""Pictures of the atlas of limits, of whirl on types of bearings, and of coupling schemes."""
 
 from __future__ import annotations
 
 import math
 from itertools import cycle, groupby
-from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
-from ..studies import Panel, StudyResult, StudyRow, failures, limit_curves
+from ..studies import Panel, StudyResult, failures, limit_curves
 from ..studies.bearing_types import ALWAYS, NEVER, UNCARRIED
-from .canvas import labeled, new_axes, new_grid
-from .ladder_charts import SCHEME_LINES, TYPE_LINES
+from .ladder_charts import SCHEME_LINES, TYPE_LINES, columns_of
+from .picture import BarsMark, CurveMark, LevelMark, Mark, NoteMark, Picture, PicturePanel
 
 # Which bearing to buy.
 
@@ -21,8 +18,8 @@ from .ladder_charts import SCHEME_LINES, TYPE_LINES
 RPM, GRAVITY = 30.0 / math.pi, 9.81
 
 
-def plot_bearing_thresholds(result: StudyResult, *, axes: Axes | None = None) -> Axes:
-    """Draw the speed from which a rigid rotor whirls over the load, a line for each type of bearing.
+def plot_bearing_thresholds(result: StudyResult) -> Picture:
+    """Describe the speed from which a rigid rotor whirls over the load, a line for each type of bearing.
 
     Types that never whirl lie on the upper edge; a cross is a load that a bearing does not carry.
 
@@ -30,65 +27,48 @@ def plot_bearing_thresholds(result: StudyResult, *, axes: Axes | None = None) ->
     ----------
     result : StudyResult
         Result as `bearing_thresholds` returns it.
-    axes : Axes, optional
-        Where to draw; a new figure by default.
     """
-    axes = axes or new_axes("", size=(9.0, 6.6))
     told = result.conditions
     mass, ends = told["mass [kg]"], (told["searched from [rad/s]"], told["searched to [rad/s]"])
     low, top = (RPM * speed for speed in ends)
+    marks: list[Mark] = []
     lowest, width = top, 1.6
     types = groupby(result.rungs, key=lambda rung: rung.family)
-    for (name, rungs), (color, style, _) in zip(types, cycle(TYPE_LINES), strict=False):
+    for (name, rungs), (color, dash, _) in zip(types, cycle(TYPE_LINES), strict=False):
         points = [(rung["load [N]"], rung["threshold [rad/s]"], rung["whirl [-]"]) for rung in rungs]
         drawn = {NEVER: top, ALWAYS: low, UNCARRIED: math.nan}
         speeds = [drawn[met] if speed is None else RPM * speed for _, speed, met in points]
         lowest = min([lowest, *(RPM * speed for _, speed, _ in points if speed is not None)])
         never = all(met == NEVER for *_, met in points)
         loads = [load for load, *_ in points]
-        line: dict[str, Any] = {"color": color, "clip_on": False}
         label = f"{name}: no whirl" if never else name
-        axes.plot(loads, speeds, style, label=label, linewidth=width, **line)
+        marks.append(CurveMark(loads, speeds, label, color, dash, width))
         lost = [load for load, _, met in points if met == UNCARRIED]
-        axes.plot(lost, [low] * len(lost), "x", **line)
-        if never:  # the next one on the edge shows beside it
-            width += 2.0
-    _finish_thresholds(axes, (loads[0], loads[-1]), (max(low, 0.7 * lowest), top))
-    axes.set_title(
+        marks.append(CurveMark(lost, [low] * len(lost), "", color, "", marker="x"))
+        width += 2.0 * never  # the next one on the edge shows beside it
+    if loads[0] < GRAVITY * mass < loads[-1]:
+        marks.append(LevelMark(GRAVITY * mass, "weight", "0.5", upright=True))
+    title = (
         f"Which bearing for a rigid rotor of {mass:g} kg a bearing? One journal, bore and oil, "
         f"L/D = {told['length/diameter [1]']:g}\nstable below its line; on the upper edge, {top:.0f} rpm: "
-        "no whirl at any speed searched",
-        fontsize=10,
+        "no whirl at any speed searched"
     )
-    if loads[0] < GRAVITY * mass < loads[-1]:
-        axes.axvline(GRAVITY * mass, color="0.5", linewidth=0.8)
-        place = (GRAVITY * mass, 0.01)
-        axes.text(*place, " weight", transform=axes.get_xaxis_transform(), fontsize=8, color="0.4")
-    axes.legend(fontsize=8, loc="lower right")
-    return axes
-
-
-def _finish_thresholds(axes: Axes, loads: tuple[float, float], speeds: tuple[float, float]) -> None:
-    axes.set(xscale="log", yscale="log", xlim=loads, ylim=speeds)
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        axis.set_major_formatter(StrMethodFormatter("{x:g}"))
-        axis.set_minor_formatter(NullFormatter())
-    axes.set(xlabel="load of the bearing along -y [N]", ylabel="speed from which the rotor whirls [rpm]")
+    panel = PicturePanel(
+        marks, "load of the bearing along -y [N]", "speed from which the rotor whirls [rpm]", title, log="xy",
+        x_limits=(loads[0], loads[-1]), y_limits=(max(low, 0.7 * lowest), top),
+    )  # fmt: skip
+    return Picture((panel,), size=(9.0, 6.6))
 
 
 # The atlas of limits: where each simplification fails, a figure for each physics and a summary of all.
 
 
-LONG = 24
-"""Characters of a label that has a line of its own."""
-
 HOLDS, DEPENDS, FAILS = "#9fd3a8", "#f5d97a", "#e79a8f"
 """Colors of the summary: where all variants hold, some, and none."""
 
 
-def plot_limits(atlas: StudyResult) -> dict[str, list[Axes]]:
-    """Draw one panel for each simplification, and the level from which it counts as failed.
+def plot_limits(atlas: StudyResult) -> dict[str, Picture]:
+    """Describe one panel for each simplification, and the level from which it counts as failed.
 
     Parameters
     ----------
@@ -97,72 +77,65 @@ def plot_limits(atlas: StudyResult) -> dict[str, list[Axes]]:
 
     Returns
     -------
-    dict of str to list of Axes
-        Those of one figure by its physics, in the order of the panels of the atlas.
+    dict of str to Picture
+        Pictures by physics, panels in the order of the atlas.
     """
-    drawn = {}
-    for physics, own in groupby(limit_curves(atlas).items(), key=lambda one: one[0].physics):
-        panels = dict(own)
-        drawn[physics] = new_grid(len(panels), columns=2, size=(4.7, 4.6), title=physics)
-        for axes, (panel, curves) in zip(drawn[physics], panels.items(), strict=True):
-            for name, curve in curves.items():
-                axes.plot(*curve, ".-", label=name)
-            _finish_limits(axes, panel)
-    return drawn
+    return {
+        physics: Picture(tuple(_limits(*one) for one in own), columns=2, size=(6.0, 3.6), title=physics)
+        for physics, own in groupby(limit_curves(atlas).items(), key=lambda one: one[0].physics)
+    }
 
 
-def _finish_limits(axes: Axes, panel: Panel) -> None:
-    axes.set(xlabel=panel.x_label, ylabel=panel.y_label, yscale="log", title=panel.title)
-    if panel.logarithmic:
-        axes.set_xscale("log")
-    else:
-        axes.locator_params(axis="x", nbins=6)  # numbers that do not touch
+def _limits(panel: Panel, curves: dict[str, tuple[np.ndarray, np.ndarray]]) -> PicturePanel:
+    marks: list[Mark] = [
+        CurveMark(*curve, name, f"C{k % 10}", marker="o", size=3.0)
+        for k, (name, curve) in enumerate(curves.items())
+    ]
     if panel.level is not None:
-        axes.axhline(panel.level, color="k", linewidth=1.0, linestyle="--", label=f"failed: {panel.level:g}")
-    axes.grid(visible=True, alpha=0.3)
-    longest = max(len(label) for label in axes.get_legend_handles_labels()[1])
-    columns = 1 if longest > LONG else 2
-    # below, where no curve is
-    axes.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=columns, frameon=False)
+        marks.append(LevelMark(panel.level, f"failed: {panel.level:g}", dash="--"))
+    log = "xy" if panel.logarithmic else "y"
+    return PicturePanel(marks, panel.x_label, panel.y_label, panel.title, log=log, legend="beside")
 
 
-def plot_limit_summary(atlas: StudyResult) -> list[Axes]:
-    """Draw a strip for each simplification: where all of its variants hold, where some do, and where none.
+def plot_limit_summary(atlas: StudyResult) -> Picture:
+    """Describe where each simplification holds, over its range: with all variants, with some, with none.
 
-    A panel whose ordinate is the limit itself has no strip.
+    A panel whose ordinate is the limit itself has no bar.
 
     Parameters
     ----------
     atlas : StudyResult
         Atlas as `limits_atlas` returns it.
-
-    Returns
-    -------
-    list of Axes
-        Of one figure, in the order of the panels of the atlas.
     """
     judged, every = failures(atlas), limit_curves(atlas)
-    title = "Errors below 10 %: green all variants, yellow some, red none"
-    drawn = new_grid(len(judged), columns=1, size=(9.4, 0.72), title=title, more=1.0)
-    for axes, (panel, found) in zip(drawn, judged.items(), strict=True):
+    names, shares, texts = [], [], []
+    for panel, found in list(judged.items())[::-1]:
         places = np.concatenate([x for x, _ in every[panel].values()])
         low, high = float(places.min()), float(places.max())
         ends = [high if at is None else at for at in found.values()]
         first, last = min(ends), max(ends)
-        for start, end, color in ((low, first, HOLDS), (first, last, DEPENDS), (last, high, FAILS)):
-            axes.axvspan(start, end, color=color, linewidth=0.0)
-        axes.set(xscale="log" if panel.logarithmic else "linear", xlim=(low, high), yticks=())
-        axes.tick_params(axis="x", which="both", labelsize=7, pad=1)
-        axes.set_ylabel(f"{panel.physics}: {panel.title}", rotation=0, ha="right", va="center", fontsize=8)
-        axes.set_xlabel(panel.x_label, fontsize=7, labelpad=1)
-    return drawn
+        scale = np.log if panel.logarithmic else np.asarray
+        names.append(f"{panel.physics}: {panel.title}")
+        shares.append((scale([first, last]) - scale(low)) / (scale(high) - scale(low)))
+        until = f"{first:.3g}" if first == last else f"{first:.3g} or {last:.3g}"
+        texts.append(f"{panel.x_label}: from {low:.3g} to {until}, of {high:.3g}")
+    rows = (FAILS, "no variant", np.ones(len(names))), (DEPENDS, "some", np.array(shares)[:, 1])
+    marks: list[Mark] = [
+        BarsMark(np.array(names), tops, label, color, across=True)
+        for color, label, tops in (*rows, (HOLDS, "all variants", np.array(shares)[:, 0]))
+    ]
+    marks += [NoteMark(0.0, k - 0.3, text) for k, text in enumerate(texts)]
+    label = "share of the range, of its logarithm where it is tenfold or more"
+    whole = PicturePanel(marks, label, "", "Where the error is below 10 %", legend="beside")
+    whole = whole._replace(x_limits=(0.0, 1.0), y_limits=(-0.7, len(names) - 0.3))
+    return Picture((whole,), size=(12.0, 1.5 + 0.34 * len(names)))
 
 
-# Charts of coupling schemes: how long a macro step each stands.
+# Coupling schemes: how long a macro step each stands.
 
 
-def plot_coupling_limits(result: StudyResult) -> list[Axes]:
-    """Draw the longest stable macro step over the eccentricity ratio, and over the mass of the journal.
+def plot_coupling_limits(result: StudyResult) -> Picture:
+    """Describe the longest stable macro step over the eccentricity ratio, and over the mass of the journal.
 
     Lines are theory, marks are runs of the scheme; schemes without a limit are named above.
 
@@ -171,52 +144,37 @@ def plot_coupling_limits(result: StudyResult) -> list[Axes]:
     result : StudyResult
         Result as `coupling_limits` returns it.
     """
-    shown = new_grid(2, columns=2, size=(5.5, 4.8))
-    limit = "critical_macro_angle [deg]"
+    limit, mass = "critical_macro_angle [deg]", "mass_ratio [1]"
     limited = [rung for rung in result.rungs if rung[limit] is not None]
-    parts = (
-        ("eccentricity_ratio [1]", "eccentricity ratio", "rigid rotor, speed parameter 1"),
-        (
-            "mass_ratio [1]",
-            "mass of the journal / mass of the rotor",
-            "light journal, eccentricity ratio 0.7",
-        ),
-    )
-    for axes, (place, label, title) in zip(shown, parts, strict=True):
-        rigid = axes is shown[0]
-        own = [rung for rung in limited if (rung["mass_ratio [1]"] == 1.0) is rigid]
-        for scheme, (color, line, mark) in SCHEME_LINES.items():
-            rungs = sorted((rung for rung in own if rung.family == scheme), key=lambda rung: rung[place])
-            if rungs:
-                axes.plot(*_points(rungs, place, limit), line, color=color, label=scheme)
-                runs = [rung for rung in rungs if rung["simulated [deg]"] is not None]
-                found = _points(runs, place, "simulated [deg]")
-                axes.plot(*found, mark, color=color, markersize=5, fillstyle="none")
-        axes.set(xlabel=label, title=title, ylabel="longest stable macro step [deg]", yscale="log")
-        axes.grid(visible=True, which="both", alpha=0.25)
-    shown[1].set_xscale("log")
     free = sorted({rung.family for rung in result.rungs} - {rung.family for rung in limited})
+    parts = (
+        ("eccentricity_ratio [1]", "eccentricity ratio", "rigid rotor, speed parameter 1", "y"),
+        (mass, "mass of the journal / mass of the rotor", "light journal, eccentricity ratio 0.7", "xy"),
+    )
+    panels: list[PicturePanel] = []
+    for place, label, title, log in parts:
+        own = [rung for rung in limited if (rung[mass] == 1.0) is (place != mass)]
+        marks: list[Mark] = []
+        for scheme, (color, dash, marker) in SCHEME_LINES.items():
+            rungs = sorted((rung for rung in own if rung.family == scheme), key=lambda rung: rung[place])
+            runs = [rung for rung in rungs if rung["simulated [deg]"] is not None]
+            if rungs:
+                marks.append(CurveMark(*columns_of(rungs, place, limit), scheme, color, dash))
+            if runs:
+                found = columns_of(runs, place, "simulated [deg]")
+                marks.append(CurveMark(*found, "", color, "", marker=marker, filled=False))
+        beside = "beside" if panels else "none"
+        panels.append(
+            PicturePanel(marks, label, "longest stable macro step [deg]", title, log=log, legend=beside)
+        )
     title = f"no limit: {', '.join(free)}"
-    shown[1].legend(fontsize=8, title=title, title_fontsize=8, ncols=2)
-    return shown
-
-
-def _points(rungs: list[StudyRow], *headings: str) -> list[list[float]]:
-    return [[rung[heading] for rung in rungs] for heading in headings]
-
-
-# Chart of the error of a coupled run over its macro step.
+    return Picture(tuple(panels), columns=2, size=(5.5, 4.8), title=title)
 
 
 def plot_coupling_error(
-    macro_angles: np.ndarray,
-    errors: np.ndarray,
-    refused: np.ndarray,
-    *,
-    limit: float | None = None,
-    axes: Axes | None = None,
-) -> Axes:
-    """Draw the error of the coupled run against the monolithic one over the macro step.
+    macro_angles: np.ndarray, errors: np.ndarray, refused: np.ndarray, *, limit: float | None = None
+) -> Picture:
+    """Describe the error of the coupled run against the monolithic one over the macro step.
 
     Parameters
     ----------
@@ -228,17 +186,16 @@ def plot_coupling_error(
         Runs that are no answer; drawn as crosses.
     limit : float, optional [rad]
         Explicit stability limit of the coupling.
-    axes : Axes, optional
-        Where to draw; a new figure by default.
     """
-    axes = axes or new_axes("Co-simulation error against macro step")
     degrees, good = np.degrees(macro_angles), ~np.asarray(refused)
-    axes.loglog(degrees[good], errors[good], "o-", label="Gauss-Seidel, force held")
-    axes.loglog(degrees[~good], errors[~good], "x", color="C3", label="refused")
+    marks: list[Mark] = [
+        CurveMark(degrees[good], errors[good], "Gauss-Seidel, force held", marker="o"),
+        CurveMark(degrees[~good], errors[~good], "refused", "C3", "", marker="x"),
+    ]
     if np.any(good):
-        axes.loglog(degrees, errors[good][0] * degrees / degrees[good][0], "k:", label="first order")
+        line = errors[good][0] * degrees / degrees[good][0]
+        marks.append(CurveMark(degrees, line, "first order", "k", ":"))
     if limit is not None:
-        axes.axvline(np.degrees(limit), color="C3", linewidth=1.0, label="explicit stability limit")
-    axes.set_xticks(degrees, [f"{angle:.3g}" for angle in degrees])
-    axes.minorticks_off()
-    return labeled(axes, "macro step [deg of shaft rotation]", "largest orbit error / clearance")
+        marks.append(LevelMark(float(np.degrees(limit)), "explicit stability limit", "C3", upright=True))
+    text = "macro step [deg of shaft rotation]", "largest orbit error / clearance"
+    return Picture((PicturePanel(marks, *text, "Co-simulation error against macro step", log="xy"),))

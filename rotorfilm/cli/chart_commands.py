@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 from .. import charts, studies
 from ..core.errors import visible
@@ -17,9 +17,6 @@ from ..core.progress import Report, part_of
 from ..core.units import parse_quantity
 from . import printing as console
 from .command import Argument, CommandOutput, Option, Settings, load_scene
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 DPI = 110
 OUT = Path("rotorfilm-charts")
@@ -65,19 +62,26 @@ def show_table(
 
 
 def write_chart(
-    out: Path, stem: str, columns: Mapping[str, Iterable[object]], axes: Sequence[Axes], data: object = None
+    out: Path,
+    stem: str,
+    columns: Mapping[str, Iterable[object]],
+    picture: charts.Picture,
+    data: object = None,
 ) -> Files:
     """Write chart and table, and data as JSON if there are any; return the rows that name them."""
     out.mkdir(parents=True, exist_ok=True)
-    files = [*write_picture(out, stem, axes), ("table", str(write_csv(out / f"chart_{stem}.csv", columns)))]
+    files = [
+        *write_picture(out, stem, picture),
+        ("table", str(write_csv(out / f"chart_{stem}.csv", columns))),
+    ]
     if data is not None:
         files.append(("data", str(console.write_json(out / f"chart_{stem}.json", data))))
     return files
 
 
-def write_picture(out: Path, stem: str, axes: Sequence[Axes], kind: str = "chart") -> Files:
+def write_picture(out: Path, stem: str, picture: charts.Picture, kind: str = "chart") -> Files:
     """Write a picture; return the row that names it."""
-    return [(kind, str(charts.save(axes[0], out / f"chart_{stem}.png", dpi=DPI)))]
+    return [(kind, str(picture.save(out / f"chart_{stem}.png", dpi=DPI)))]
 
 
 def number(entry: object) -> str:
@@ -197,7 +201,7 @@ def heat(report: Report, out: Folder = OUT) -> CommandOutput:
     files = write_study(out, result)
     files += write_chart(out, "heat_limits", limits.columns(), charts.plot_limits(limits)["heat"])
     case = studies.HEAT_CASES[1]
-    pictures = charts.plot_heated_film(heated_film(case), title=f"Film that warms: {case.name}").draw()
+    pictures = charts.plot_heated_film(heated_film(case), title=f"Film that warms: {case.name}")
     files += write_picture(out, "heat_film", pictures, "film")
     return CommandOutput(result, shown_study(result, files))
 
@@ -217,7 +221,7 @@ def rolling(
     speeds = [k * top / (POINTS - 1) for k in range(POINTS)]
     curves = studies.ball_curves(studies.usual_bearing(), speeds, report=part_of(report, 0.0, 0.5))
     ladder = studies.ball_accuracy(states, seed=seed, report=part_of(report, 0.5, 1.0))
-    files = write_chart(out, "rolling", curves.columns(), charts.plot_ball_curves(curves).draw())
+    files = write_chart(out, "rolling", curves.columns(), charts.plot_ball_curves(curves))
     headings = ("preload [N]", f"running at {RPM * top:.5g} rpm [N]", "radial [N/um]", "axial [N/um]")
     last = (curves.running_preload, 1e-6 * curves.radial_stiffness, 1e-6 * curves.axial_stiffness)
     rows = [
@@ -254,15 +258,12 @@ def stability(report: Report, ld: Slenderness = 0.5, out: Folder = OUT) -> Comma
 
     Example: rotorfilm chart stability --ld 0.5 --json
     """
-    from ..charts.whirl_verdicts import verdicts
-    from ..studies.journal_stability import by_film
-
     result = studies.journal_stability(ld, report=report)
     files = write_chart(out, "stability", result.columns(), charts.plot_journal_stability(result))
-    headings = ("film", "error at most", "wrong at eps", "tension, large motion", "|Cxy - Cyx| / max |C|")
-    rows = [(name, *(text for text, _ in verdicts(own))) for name, own in by_film(result).items()]
+    columns = charts.verdict_table(result).columns
+    headings, rows = [one.name for one in columns], zip(*(one.values for one in columns), strict=True)
     return CommandOutput(
-        result, partial(show_table, headings, rows, [("reference", result.reference), *files])
+        result, partial(show_table, headings, list(rows), [("reference", result.reference), *files])
     )
 
 
@@ -281,8 +282,8 @@ def limits(
     atlas = studies.limits_atlas(physics, report=report)
     table = atlas.columns()
     files = write_chart(out, "limits", table, charts.plot_limit_summary(atlas), table)
-    for name, axes in charts.plot_limits(atlas).items():
-        files += write_picture(out, f"limits_{name}", axes, name)
+    for name, picture in charts.plot_limits(atlas).items():
+        files += write_picture(out, f"limits_{name}", picture, name)
     rows: list[tuple[str, str]] = []
     for panel, found in studies.failures(atlas).items():
         rows += [("", ""), (f"{panel.physics}: {panel.title}", ""), (f"fails from {panel.x_label}", "")]
@@ -304,7 +305,7 @@ def bearings(
     carried = parse_quantity(mass, "kg")
     whirl = studies.bearing_thresholds(ld, mass=carried, report=part_of(report, 0.3, 1.0))
     files = write_study(out, film)
-    files += write_chart(out, "whirl", whirl.columns(), [charts.plot_bearing_thresholds(whirl)])
+    files += write_chart(out, "whirl", whirl.columns(), charts.plot_bearing_thresholds(whirl))
     types = {name: list(rungs) for name, rungs in groupby(whirl.rungs, key=lambda rung: rung.family)}
     count = len(whirl.rungs) // len(types)
     shown = (0, count // 2, count - 1)
@@ -345,8 +346,8 @@ def scene(
         for r in result.rungs
         if r.error_estimate is not None and r.cost is not None and r.error_estimate > 0.0
     ]
-    axes = charts.plot_scene_ladder(points, title=title, tolerance=result.tolerance).draw()
-    files = write_chart(out, file.stem, result.columns(), axes)
+    picture = charts.plot_scene_ladder(points, title=title, tolerance=result.tolerance)
+    files = write_chart(out, file.stem, result.columns(), picture)
     rows = [
         (("* " if r.chosen else "  ") + r.name, number(r.error_estimate), number(r.cost), r.reason)
         for r in result.rungs

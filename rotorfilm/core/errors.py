@@ -6,7 +6,9 @@ import re
 import sys
 import unicodedata
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import cache
 from typing import Any
 
@@ -226,17 +228,52 @@ def require_inside(position: NDArray[np.float64], clearance: float, when: str = 
         )
 
 
-def warn_user(message: str, category: type[Warning] = ValidityWarning) -> None:
-    """Warn at the line outside the package whose call led here, however deep in the package that is."""
+SAID: ContextVar[set[object] | None] = ContextVar("SAID", default=None)
+"""Keys of the warnings given in the answer that is being made; None outside of one."""
+
+
+@contextmanager
+def said_once() -> Iterator[None]:
+    """Give each warning with a key once while an answer is made."""
+    token = SAID.set(set() if SAID.get() is None else SAID.get())
+    try:
+        yield
+    finally:
+        SAID.reset(token)
+
+
+def warn_user(
+    message: str, category: type[Warning] = ValidityWarning, key: tuple[object, ...] | None = None
+) -> None:
+    """Warn at the line outside the package whose call led here, however deep in the package that is.
+
+    What the `key` names is said once in an answer; see `said_once`.
+    """
+    said = SAID.get()
+    if said is not None and key is not None:
+        if key in said or _is_ignored(category):
+            return
+        said.add(key)
     package = __name__.partition(".")[0]
     frame, level, outermost = sys._getframe(), 0, 1
     while frame is not None:
         level += 1
+        name = frame.f_globals.get("__name__", "").partition(".")[0]
         # The generated __init__ of a dataclass has no file, but the name of its module.
-        if frame.f_globals.get("__name__", "").partition(".")[0] == package:
+        if name == package or (name == "contextlib" and outermost == level - 1):
             outermost = level
         frame = frame.f_back  # type: ignore[assignment]
     warnings.warn(plain_numbers(message), category, stacklevel=outermost + 1)
+
+
+def _is_ignored(category: type[Warning]) -> bool:
+    """Return whether the first filter of all warnings of a category drops them."""
+    actions = (
+        action
+        for action, message, kind, module, _ in warnings.filters
+        if message is None and module is None and issubclass(category, kind)
+    )
+    return next(actions, "") == "ignore"
 
 
 def _is_number(value: object) -> bool:

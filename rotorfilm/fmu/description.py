@@ -362,7 +362,8 @@ def _add_variable(parent: Element, reference: int, elements: Sequence[Variable],
         SubElement(SubElement(parent, "ScalarVariable", described), "Real", values)
     else:
         if variable.array:
-            described |= {"name": variable.array, "description": "; ".join(v.description for v in elements)}
+            text = "; ".join(dict.fromkeys(v.description for v in elements))
+            described |= {"name": variable.array, "description": text}
         if variable.array and variable.start is not None:
             values["start"] = " ".join(repr(float(v.start or 0.0)) for v in elements)
         element = SubElement(parent, "Float64", described | values)
@@ -443,6 +444,16 @@ def in_arrays(variables: Sequence[Variable], prefix: str) -> tuple[Variable, ...
                 name = structured_name(prefix, station + vector)
                 marked[k : k + 2] = [replace(variable, array=name) for variable in pair]
     return tuple(marked)
+
+
+def in_maps(variables: Sequence[Variable]) -> tuple[Variable, ...]:
+    """Return the variables with numbered parameters, as `kxx_1`, `kxx_2`, marked as elements of an array."""
+    return tuple(
+        replace(variable, array=variable.name.rpartition("_")[0])
+        if variable.causality == "parameter"
+        else variable
+        for variable in variables
+    )
 
 
 def build_description(identifier: str, sources: tuple[str, ...]) -> bytes:
@@ -660,14 +671,61 @@ def terminals(component: str, prefix: str, inputs: Sequence[str], outputs: Seque
 
 
 def terminal_files(
-    model: Model | Stepped, component: str, variables: Sequence[Variable], prefix: str, icon: bool
+    model: Model | Stepped,
+    component: str,
+    variables: Sequence[Variable],
+    prefix: str,
+    icon: bool,
+    sampled: tuple[str, str] | None = None,
 ) -> dict[str, bytes]:
-    """Return terminalsAndIcons.xml by its path; nothing where there are neither terminals nor an icon."""
+    """Return terminalsAndIcons.xml by its path; nothing where there are neither terminals nor an icon.
+
+    With `sampled`, as in a `NativeSpec`, it has a terminal of the map, and FMI-LS-STRUCT a manifest.
+    """
     found = terminals(component, prefix, names(model.inputs), names(model.outputs))
     arrays = {v.name: v.array for v in variables if v.array}
     found = {name: _vectors(members, arrays) for name, members in found.items()}
-    path = "terminalsAndIcons/terminalsAndIcons.xml"
-    return {path: terminals_and_icons(found, icon)} if found or icon else {}
+    members = _map_members(variables, prefix, sampled) if sampled else []
+    files = {f"{STRUCT}/fmi-ls-manifest.xml": struct_manifest()} if members else {}
+    if found or icon or members:
+        files["terminalsAndIcons/terminalsAndIcons.xml"] = terminals_and_icons(
+            found, icon, members, f"{component}_map"
+        )
+    return files
+
+
+STRUCT = "extra/org.fmi-standard.fmi-ls-struct"
+"""Folder of the layered standard FMI-LS-STRUCT 1.0.0-rc.1, whose terminals are sampled maps."""
+
+STRUCT_KIND = "org.fmi-standard.fmi-ls-struct.map"
+
+
+def struct_manifest() -> bytes:
+    """Return fmi-ls-manifest.xml of FMI-LS-STRUCT."""
+    told = {
+        "name": "org.fmi-standard.fmi-ls-struct",
+        "version": "1.0.0-rc.1",
+        "description": "Layered standard for structuring of variables",
+    }
+    return to_bytes(Element("fmiLayeredStandardManifest", manifest_attributes(told)))
+
+
+def manifest_attributes(told: Mapping[str, str]) -> dict[str, str]:
+    """Return the attributes of the manifest of a layered standard: its name, version and description."""
+    attributes = {f"fmi-ls:fmi-ls-{name}": value for name, value in told.items()}
+    return {"xmlns:fmi-ls": "http://fmi-standard.org/fmi-ls-manifest", **attributes}
+
+
+def _map_members(
+    variables: Sequence[Variable], prefix: str, sampled: tuple[str, str]
+) -> list[tuple[str, str, str]]:
+    """Return name, variable and kind of the members of a map: sampling points, the input there, values."""
+    arrays = dict.fromkeys(v.array for v in variables if v.array and v.causality == "parameter")
+    before = f"{prefix}." if prefix else ""
+    points, place = sampled
+    kinds = {f"{before}{points}": "domain", f"{before}{place}": "domainInput"}
+    kinds |= {array: "codomain" for array in arrays if array not in kinds}
+    return [(name.removeprefix(before), name, kind) for name, kind in kinds.items()] if arrays else []
 
 
 def _vectors(members: dict[str, str], arrays: Mapping[str, str]) -> dict[str, str]:
@@ -685,7 +743,9 @@ def _stations(labels: Sequence[str]) -> list[str]:
     return list(dict.fromkeys(match[1] or "" for match in matches if match))
 
 
-def terminals_and_icons(found: Terminals, icon: bool) -> bytes:
+def terminals_and_icons(
+    found: Terminals, icon: bool, map_members: Sequence[tuple[str, str, str]] = (), map_name: str = ""
+) -> bytes:
     """Return terminalsAndIcons.xml: the size of icon.png on a diagram, if there is one, and the terminals."""
     root = Element("fmiTerminalsAndIcons", fmiVersion=FMI)
     if icon:
@@ -693,7 +753,7 @@ def terminals_and_icons(found: Terminals, icon: bool) -> bytes:
         graphics = SubElement(root, "GraphicalRepresentation")
         SubElement(graphics, "CoordinateSystem", {**corners, "suggestedScalingFactorTo_mm": "0.1"})
         SubElement(graphics, "Icon", corners)
-    if found:
+    if found or map_members:
         parent = SubElement(root, "Terminals")
         described = {"terminalKind": KIND, "description": "motion of the journal and force on it"}
         for name, members in found.items():
@@ -701,4 +761,12 @@ def terminals_and_icons(found: Terminals, icon: bool) -> bytes:
             for member, variable in members.items():
                 own = {"variableName": variable, "memberName": member}
                 SubElement(element, "TerminalMemberVariable", {**own, "variableKind": "signal"})
+        if map_members:
+            kind = {"terminalKind": f"{STRUCT_KIND}.rectilinearGrid", "matchingRule": STRUCT_KIND}
+            element = SubElement(parent, "Terminal", {"name": map_name, **kind})
+            for member, variable, role in map_members:
+                own = {"variableName": variable, "memberName": member}
+                SubElement(
+                    element, "TerminalMemberVariable", {**own, "variableKind": f"{STRUCT_KIND}.{role}"}
+                )
     return to_bytes(root)

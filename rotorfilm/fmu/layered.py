@@ -16,7 +16,7 @@ from ..core.errors import FmuError
 from ..core.files import write_atomically
 from . import instance as fmus
 from .archive import to_zip
-from .description import to_bytes
+from .description import manifest_attributes, to_bytes
 from .native.platforms import MACHINES, SYSTEMS, TARGETS
 from .system_export import Format, parameter_set
 
@@ -26,7 +26,6 @@ TEXT = "Layered Standard providing information on related files included in an F
 VERSION = "1.0.0-alpha.1"
 """The version that the public text of the standard names in its latest edition, 1.0.0-beta.1."""
 
-NAMESPACE = "http://fmi-standard.org/fmi-ls-manifest"
 REFERENCE = "documentation/reference.csv"
 STATE = "serialized-state"
 
@@ -89,8 +88,7 @@ def add_references(path: str | PathLike[str]) -> Path:
 def manifest(related: Sequence[Related]) -> bytes:
     """Return fmi-ls-manifest.xml of FMI-LS-REF."""
     named = {"name": "org.fmi-standard.fmi-ls-ref", "version": VERSION, "description": TEXT}
-    attributes = {f"fmi-ls:fmi-ls-{name}": value for name, value in named.items()}
-    root = Element("fmiReferences", {"xmlns:fmi-ls": NAMESPACE, **attributes})
+    root = Element("fmiReferences", manifest_attributes(named))
     for one in related:
         told = {"type": one.kind, "source": one.source, "role": one.role, "description": one.description}
         SubElement(root, "Related", told)

@@ -83,6 +83,9 @@ class NativeSpec:
         Parameter that is a stiffness [N/m] beside the model, along either axis; empty where there is none.
     parts : tuple of str
         Kernels that it calls, as a system those of its bearings.
+    sampled : tuple of str or None
+        Of a kernel whose parameters are a map, sampled over one input: the name of the sampling points, which
+        are numbered from 1 as `speeds_1`, and the input. All other parameters are values at these points.
 
     Raises
     ------
@@ -96,6 +99,7 @@ class NativeSpec:
     inputs: tuple[str, ...] | None = None
     spring: str = ""
     parts: tuple[str, ...] = ()
+    sampled: tuple[str, str] | None = None
 
     def __post_init__(self) -> None:
         names = [parameter.name for parameter in self.parameters]

@@ -34,6 +34,7 @@ from ..scenes.shared_tables import oil_remarks
 from ..scenes.solve_shaft import shaft_physics, shaft_remarks
 from ..scenes.tilted_films import TiltLevelFilm, tilted_films
 from .heat_levels import BALANCE, BALANCED, FRESH, HeatLevel, balance_at, known_films, with_heat, with_moving
+from .turbulent_oil import turbulent_shaft
 from .variants import FunctionRung, counted_rung, with_estimate
 
 if TYPE_CHECKING:
@@ -267,7 +268,7 @@ def shaft_ladder_on(
         levels = ((RotorHeat(FRESH), fresh), (RotorHeat(BALANCED), rungs))
         ladder = (*(warm_rung(rung, heat) for heat, each in levels for rung in each), *fields)
     oil = scene.lubricant.properties
-    return Ladder(
+    made = Ladder(
         rungs=ladder,
         unit=unit,
         remarks=oil_remarks(scene.tables, scene.lubricant) + shaft_remarks(rotor, bearings, oil, speed),
@@ -275,6 +276,7 @@ def shaft_ladder_on(
         assumptions=lambda: shaft_assumptions(first),
         distance=first.distance,
     )
+    return turbulent_shaft(scene, first, made)
 
 
 # Flexible rotors on films of an oil: the films as fresh oil (T0) or as warm as the rotor's rest (T1).

@@ -35,6 +35,7 @@ from ..scenes.solve_shaft import shaft_physics, shaft_remarks, stability_remark
 from . import shaft_films
 from .film_motions import WALL, OrbitPlace, SolvedTurn
 from .quantities import FORCE, ORBIT_UNITS, PHASE
+from .turbulent_oil import turbulent_run
 from .variants import FunctionRung
 
 if TYPE_CHECKING:
@@ -394,12 +395,14 @@ def _lowest(rotor: ShaftRotor) -> FlexibleRotor:
 
 
 def _thicker(films: shaft_films.ShaftFilms, share: float) -> dict[str, Reaction]:
-    """Return the bearings with so many times the viscosity of their oil."""
+    """Return the bearings with so many times the viscosity of their oil, at the same Reynolds number."""
     thick = dict(films.springs)
     for name, film in films.journals.items():
-        viscosity = film.reaction.viscosity
-        assert viscosity is not None  # films on an oil are refused
-        thick[name] = replace(film.reaction, viscosity=share * viscosity)
+        bearing, effect = film.reaction, film.reaction.turbulence
+        assert bearing.viscosity is not None  # films on an oil are refused
+        if effect is not None:
+            effect = replace(effect, density=share * (effect.density or bearing.film_density))
+        thick[name] = replace(bearing, viscosity=share * bearing.viscosity, turbulence=effect)
     return thick
 
 
@@ -439,7 +442,7 @@ def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         for model in shaft_models(rotor)  # reduced, and meshes of the element of the file
         if model.modes or (model.modes is None and model.beam == rotor.beam)
     ]
-    return Ladder(
+    ladder = Ladder(
         rungs=tuple(peak_rung(model, films, levels[-1], shaken) for films in levels for model in models),
         unit="m",
         remarks=(
@@ -448,6 +451,14 @@ def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         ),
         within=shaft_physics(bearings),
     )
+
+    def moved(share: float) -> float:
+        films = levels[0].reaction, _thicker(levels[0], 1.0 + share)
+        own, other = (shaken.peak(shaken.run(models[0].rotor, one, RTOL)) for one in films)
+        return abs(other / own - 1.0)
+
+    journals = {name: film.reaction for name, film in levels[0].journals.items()}
+    return turbulent_run(scene, journals, ladder, moved)
 
 
 def _massless(films: shaft_films.ShaftFilms) -> shaft_films.ShaftFilms:

@@ -9,19 +9,23 @@ answer.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ..analysis import coefficients, equilibrium
 from ..bearings.films.turbulence import Turbulence
 from ..bearings.journal import full_stress_forces
 from ..core.answers import ErrorEstimate, Ladder, LeftOutRemark, Rung, RungResult
 from ..core.errors import RotorfilmError
+from ..core.results import Coefficients
 from ..scenes.film_rungs import FilmCandidate
 from ..scenes.turbulent import QUADRATURE, is_left_laminar, other_band, quick, quiet, turbulence_of, warmed
+from ..scenes.turbulent_shaft import JournalStation, highest_speed, left_laminar
 from .conserved_oil import rest_on
 from .variants import FunctionRung, with_estimate
 
@@ -30,6 +34,8 @@ if TYPE_CHECKING:
 
 WHOLE_STEP = 1.35
 """The way from a laminar place to the turbulent one over the first step, 70 % of it."""
+
+BEYOND = "a laminar film above the onset of turbulence meets no tolerance"
 
 TRANSITION = "what the band of transition changes"
 
@@ -50,13 +56,11 @@ def turbulent_oil(scene: Scene, question: Any, films: Sequence[FilmCandidate], l
 
         def step() -> ErrorEstimate:
             about = step_to(question, films[0], place(), own)
-            return about._replace(error=WHOLE_STEP * about.error)
+            return about._replace(error=WHOLE_STEP * about.error, doubt=BEYOND)
 
         return _counted(ladder, cache(step), "turbulence")
-    said = f"turbulent by {effect.closure}"
-    ladder = replace(ladder, within=f"{ladder.within.replace('laminar films', 'films')}, {said}")
-    remark = _transition(question, films[0], place, effect)
-    ladder = replace(ladder, remarks=(*remark, *ladder.remarks))
+    about = quiet(lambda: step_to(question, films[0], place(), other_band(effect)))
+    ladder = _said(ladder, [effect], None if about is None else about.error)
 
     def closer() -> ErrorEstimate:
         richer = replace(effect, closure=QUADRATURE)
@@ -94,7 +98,7 @@ def _counted(ladder: Ladder, step: Callable[[], ErrorEstimate], name: str) -> La
                 method=f"{about.method}; {name}, {more:.2g}",
                 bound=about.bound and about.error > more,
                 doubt=about.doubt or doubt,
-                shared=about.shared + more,
+                shared=math.inf if doubt == BEYOND else about.shared + more,
                 better=None,
             )
 
@@ -125,13 +129,124 @@ def by_stress(question: Any, bearing: Any) -> float:
     )
 
 
-def _transition(
-    question: Any, film: FilmCandidate, place: Callable[[], Any], effect: Turbulence
-) -> tuple[LeftOutRemark, ...]:
-    """Return what a band of transition changes, or the want of one."""
-    about = quiet(lambda: step_to(question, film, place(), other_band(effect)))
-    if about is None:
-        return ()
-    other = "with a band of transition" if effect.band is False else "without the band of transition"
-    text = f"turbulence: {other}, behind which no measurement stands, the answer is {about.error:.2g} away"
-    return (LeftOutRemark(text, TRANSITION, about.error),)
+def _said(ladder: Ladder, effects: Sequence[Turbulence], change: float | None) -> Ladder:
+    """Return a ladder that names its closures, and what a band of transition, or the want of one, changes."""
+    closures = " and ".join(dict.fromkeys(effect.closure for effect in effects))
+    within = f"{ladder.within.replace('laminar films', 'films')}, turbulent by {closures}"
+    if change is None:
+        return replace(ladder, within=within)
+    other = "without the band" if effects[0].band else "with a band"
+    text = f"turbulence: {other} of transition, behind which no measurement stands, the answer is "
+    text += f"{change:.2g} away"
+    return replace(ladder, within=within, remarks=(LeftOutRemark(text, TRANSITION, change), *ladder.remarks))
+
+
+# Flexible rotors: what turbulence changes in K and C of their journals.
+
+
+class ShaftTurbulence(NamedTuple):
+    """Turbulence of the journals of a shaft, by station.
+
+    Attributes
+    ----------
+    own : mapping of str to Turbulence
+        Of those that are turbulent.
+    laminar : tuple of str
+        Those that are laminar above their onset at the highest speed of the scene.
+    richer : mapping of str to Turbulence
+        The quadrature for all of them.
+    """
+
+    own: Mapping[str, Turbulence]
+    laminar: tuple[str, ...]
+    richer: Mapping[str, Turbulence]
+
+    @classmethod
+    def of(cls, scene: Scene, journals: Mapping[str, Any]) -> ShaftTurbulence:
+        """Return that of some bearings of the shaft of a scene."""
+        own = {name: one.turbulence for name, one in journals.items() if one.turbulence is not None}
+        laminar = left_laminar(scene, highest_speed(scene))
+        richer = {name: turbulence_of(journals[name], scene) for name in laminar}
+        richer |= {name: replace(effect, closure=QUADRATURE) for name, effect in own.items()}
+        return cls(own, laminar, richer)
+
+    def counted(self, ladder: Ladder, step: Callable[[], ErrorEstimate], band: float | None) -> Ladder:
+        """Return a ladder that counts a step to the richer films, and says what another band changes."""
+        said = _said(ladder, tuple(self.own.values()), band) if self.own else ladder
+        return _counted(said, cache(step), "turbulence" if self.laminar else "closure")
+
+
+def turbulent_shaft(scene: Scene, rung: Any, ladder: Ladder) -> Ladder:
+    """Return a ladder of a shaft whose estimates count the turbulence that its films leave out.
+
+    It is the change of the answer of a `ShaftRung` on the K and C that the journals have at their own
+    equilibria, under the loads and at the speed of that answer.
+    """
+    journals = {name: film.reaction for name, film in rung.films.journals.items()}
+    films = ShaftTurbulence.of(scene, journals)
+    if not films.richer:
+        return ladder
+    found = cache(lambda: rung.answer(None))
+
+    def on(effects: Mapping[str, Turbulence | None], *, stress: bool) -> float:
+        at, own = rung.rest(found()), {}
+        for name, effect in effects.items():
+            bearing = replace(journals[name], turbulence=effect)
+            own[name] = slopes_of(bearing, at.loads[name], at.speed, stress=stress)
+        return rung.on(found(), {**at.coefficients, **own})
+
+    def change(effects: Mapping[str, Turbulence], *, stress: bool) -> float:
+        base = on({name: journals[name].turbulence for name in effects}, stress=False)
+        return rung.distance(base, on(effects, stress=stress))
+
+    def step() -> ErrorEstimate:
+        beyond = films.laminar and left_laminar(scene, rung.rest(found()).speed)
+        return ErrorEstimate(change(films.richer, stress=True), "K and C", doubt=BEYOND if beyond else "")
+
+    bands = {name: other_band(effect) for name, effect in films.own.items()}
+    return films.counted(ladder, step, quiet(lambda: change(bands, stress=False)) if bands else None)
+
+
+def turbulent_run(
+    scene: Scene, journals: Mapping[str, Any], ladder: Ladder, moved: Callable[[float], float]
+) -> Ladder:
+    """Return a ladder of a run over time whose estimates count the turbulence that its films leave out.
+
+    `moved` takes a relative change of the forces of all films, and returns that of the answer.
+    """
+    films = ShaftTurbulence.of(scene, journals)
+    if not films.richer:
+        return ladder
+    speed = highest_speed(scene)
+
+    def share(name: str, effect: Turbulence, *, stress: bool) -> float:
+        own = quick(journals[name])
+        load = JournalStation(scene=scene, name=name, speed=speed).static_load
+        at, rich = equilibrium(own, load, speed), replace(own, turbulence=effect)
+        force = rich.force(at.position, np.zeros(2), speed)
+        if stress:
+            force = full_stress_forces(rich, at.position, speed)[1]
+        return float(np.linalg.norm(force) / np.linalg.norm(load) - 1.0)
+
+    def largest(effects: Mapping[str, Turbulence], *, stress: bool) -> float:
+        return moved(max((share(name, one, stress=stress) for name, one in effects.items()), key=abs))
+
+    def step() -> ErrorEstimate:
+        return ErrorEstimate(
+            largest(films.richer, stress=True), "forces", doubt=BEYOND if films.laminar else ""
+        )
+
+    bands = {name: other_band(effect) for name, effect in films.own.items()}
+    return films.counted(ladder, step, quiet(lambda: largest(bands, stress=False)) if bands else None)
+
+
+def slopes_of(bearing: Any, load: np.ndarray, speed: float, *, stress: bool) -> Coefficients:
+    """Return K and C of a bearing on a coarse grid, in balance, with the full stress where its oil has it."""
+    cheap = quick(bearing)
+    at = equilibrium(cheap, load, speed)
+    if cheap.is_warming:
+        cheap = cheap.at_temperature(at.temperature)
+    if stress:
+        linear, full = full_stress_forces(cheap, at.position, speed)
+        at = equilibrium(cheap, load + full - linear, speed)
+    return coefficients(cheap, at.position, speed)

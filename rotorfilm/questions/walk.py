@@ -207,6 +207,8 @@ def _shared_in_vain(
     """Return why a rung cannot do: the part of the error that it shares with another is too large."""
     for other, report in zip(ladder.rungs, reports, strict=False):
         same = rung.shares is not None and other.shares is rung.shares
+        if same and math.isinf(report.shared_error):
+            return f"as {report.name}: {report.reason}"
         if same and SAFETY * report.shared_error >= tolerance:
             return f"shares an error of {report.shared_error:.2g} with {report.name}"
     return None

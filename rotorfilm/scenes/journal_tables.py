@@ -126,7 +126,7 @@ ANGLES = Several(Quantity("rad"), 2, 2, "two angles, about x and about y")
 
 
 @dataclass(frozen=True, kw_only=True)
-@fields_of(JournalBearing, JFOFilm, without=("bearing", "cells"))
+@fields_of(JournalBearing, JFOFilm, without=("bearing", "cells", "mobility"))
 class JournalTable(OiledTable):
     """`[journal]`: a cylindrical journal bearing, full unless it has pads or grooves.
 
@@ -425,15 +425,14 @@ def film_remarks(
     Of a bearing whose oil warms it is said of the film at its temperature, and heat is not left out.
     """
     remarks = remarks_of("hot", "journal")
-    film: Any = None
-    if isinstance(bearing, JFOFilm):
-        film, bearing = replace(bearing, cells=CONSERVED), bearing.bearing
-    if bearing.is_warming:
+    film: Any = replace(bearing, cells=CONSERVED) if isinstance(bearing, JFOFilm) else None
+    own: Any = bearing if film is None else film.bearing
+    if own.is_warming:
         remarks = isothermal(remarks)
-        warm: JournalBearing = warmed(bearing, film or _quick(bearing), speed, load)
-        bearing, film = warm, film and film.at_temperature(warm.temperature)
-    numbers = journal_numbers(bearing, oil, speed, load, film)
-    if bearing.turbulence is not None:
+        own = warmed(own, film or _quick(own), speed, load)
+        film = film and film.at_temperature(own.temperature)
+    numbers = journal_numbers(own, oil, speed, load, film)
+    if own.turbulence is not None:
         numbers["turbulence"] = 0.0
     return messages(remarks, numbers)
 

@@ -21,7 +21,15 @@ from ..core.readable import Readable
 from ..core.results import Trajectory
 from ..core.signals import PLANAR
 from .export_scene import at_rest, at_rest_on_film, from_shaft_rest
-from .shared_tables import BladeLossTable, GroundTable, MotorTable, RunUpTable, UnbalanceTable, require_kind
+from .shared_tables import (
+    BladeLossTable,
+    GroundTable,
+    MotorTable,
+    RunUpTable,
+    UnbalanceTable,
+    fastest_speed,
+    require_kind,
+)
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -180,17 +188,13 @@ def after_loss(scene: Scene) -> Scene:
 
 def run_span(scene: Scene) -> tuple[float, float]:
     """Return how long the run of a scene is [s], and its highest speed without its sign [rad/s]."""
-    excitation, speed, duration = scene.excitation, scene.speed, None
-    fastest = abs(speed)
+    excitation, duration = scene.excitation, None
     if isinstance(excitation, RunUpTable):
-        duration = excitation.profile(speed).times[-1]
-        fastest = max(fastest, abs(excitation.end_speed))
-    if isinstance(excitation, MotorTable):
-        fastest = max(fastest, abs(excitation.idle_speed))
+        duration = excitation.profile(scene.speed).times[-1]
     given = None if scene.operation is None else scene.operation.duration
     if isinstance(excitation, GroundTable) and given is None:
         duration = excitation.end
-    return duration or scene.duration, fastest
+    return duration or scene.duration, fastest_speed(scene)
 
 
 def _parts(scene: Scene) -> _Parts:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..bearings.journal import JournalBearing
 from ..bearings.linear import LinearBearing
+from ..bearings.oil.oil import DENSITY
 from ..bearings.seal import AnnularSeal
 from ..core.errors import InputError, SceneError, brief
 from ..core.inputs import arguments
@@ -22,6 +23,7 @@ from .reading import keyed
 from .scene import Scene, read_scene
 from .shaft_table import BEAMS, SEAL_KEYS
 from .shared_tables import SCHEMA
+from .turbulent import NONE
 
 TABLES = {JournalBearing: "journal", AnnularSeal: "seal"}
 """Keys of bearings in an entry of `shaft.bearings`."""
@@ -76,6 +78,8 @@ def scene_of(rotor: ShaftRotor, bearings: Bearings, speeds: ArrayLike, title: st
         "operation": {"speed": rotor.profile.speed(0.0)},
         "shaft": shaft,
     }
+    if any(getattr(one, "turbulence", None) is not None for one in bearings.values()):
+        tables["lubricant"] = {"density": DENSITY}  # that of a turbulence which names none
     try:
         found = read_scene(tables, "scene")
     except SceneError as error:
@@ -97,7 +101,9 @@ def _bearing(bearing: Any, name: str) -> dict[str, Any]:
     found = _plain(bearing)
     if key == "seal":
         found = {one: value for one, value in found.items() if one in SEAL_KEYS}
-    elif "film" in found:
+    elif getattr(bearing, "turbulence", found) is None:
+        found["turbulence"] = NONE
+    if "film" in found:
         laws = {keyed(table).makes: (law, keyed(table).readers) for law, table in FILMS.items()}
         law, known = laws.get(type(bearing.film), ("", {}))
         found["film"] = {"name": law, **{one: value for one, value in found["film"].items() if one in known}}

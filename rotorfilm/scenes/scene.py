@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from ..analysis.threads import one_blas_thread
 from ..core.answers import QuestionAnswer
-from ..core.errors import InputError, SceneError, brief, require_positive, shortened, warn_user
+from ..core.errors import InputError, SceneError, brief, require_positive, said_once, shortened, warn_user
 from ..core.inputs import nearest
 from ..core.limits import LINE_DOTS, SCENE_BYTES
 from ..core.port import Reaction
@@ -155,14 +155,16 @@ class Scene:
             self._require_place(self.question.at, self.question.quantity)
         if isinstance(self.excitation, UnbalanceTable):
             self._require_node("excitation.node", self.excitation.node)
+        if self.shaft is not None:
+            self._decide("shaft", brought("scenes.turbulent_shaft.decided_shaft"))
         if not self.has_film:
             return
         if self.operation is None:
             raise InputError("operation is required and missing: the journal has no speed and no load")
         if self.operation.load is None and self.rigid_rotor is None:
             raise InputError(NO_LOAD)
-        own = {name: decided(table, self) for name, table in film_tables(self.tables).items()}
-        object.__setattr__(self, "tables", {**self.tables, **own})
+        for name in film_tables(self.tables):
+            self._decide(name, decided)
 
     def __getattr__(self, name: str) -> Any:
         """Return the table of a family by its name; None if the scene has none."""
@@ -179,6 +181,10 @@ class Scene:
             if hasattr(table, "on")
         }
         object.__setattr__(self, "tables", {**self.tables, **oiled})
+
+    def _decide(self, name: str, decide: Any) -> None:
+        """Keep what decides over the turbulence of a table in its place."""
+        object.__setattr__(self, "tables", {**self.tables, name: decide(self.tables[name], self)})
 
     def _require_node(self, name: str, node: int) -> None:
         """Raise InputError unless the shaft has this node; where there is none, it is 0."""
@@ -221,6 +227,7 @@ class Scene:
         """
         return read_scene(varied(read_tables(path), changes), str(path))
 
+    @said_once()
     def solve(self, report: Report = silent) -> Any:
         """Return the answer to the question, or without a question the results of the bearing or rotor.
 
@@ -244,6 +251,7 @@ class Scene:
         answer = next((FAMILIES[name].answer for name in self.tables if FAMILIES[name].answer), "")
         return brought(answer)(self, report) if answer else self.describe()
 
+    @said_once()
     @one_blas_thread
     def ask(self) -> QuestionAnswer:
         """Return the answer to the question by the cheapest model that meets its tolerance.

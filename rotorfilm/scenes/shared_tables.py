@@ -523,6 +523,14 @@ EXCITATIONS = {
 """What may shake a scene, by name."""
 
 
+def fastest_speed(scene: Any) -> float:
+    """Return the highest speed of the operation of a scene, and of what drives it, without a sign [rad/s]."""
+    excitation, speed = scene.excitation, abs(scene.speed)
+    if isinstance(excitation, RunUpTable):
+        return max(speed, abs(excitation.end_speed))
+    return max(speed, abs(excitation.idle_speed)) if isinstance(excitation, MotorTable) else speed
+
+
 def kind_of(excitation: object) -> str:
     """Return the name of what shakes a scene; empty for nothing."""
     return next((name for name, table in EXCITATIONS.items() if type(excitation) is table), "")

@@ -13,18 +13,18 @@ import numpy as np
 from .. import analysis
 from ..analysis.closed_loop import driven_by_unbalance
 from ..bearings.journal import USUAL_CORRECTION, JournalBearing, MomentCarryingJournal
-from ..bearings.linear import LinearBearing
-from ..bearings.seal import AnnularSeal
 from ..core.answers import ISOTHERMAL
 from ..core.errors import InputError, RotorfilmError
 from ..core.model import Array
-from ..core.port import Reaction, freedoms_of
+from ..core.port import Reaction
 from ..core.progress import Report, part_of, silent
 from ..core.readable import Drawable
 from ..rotors import ShaftElement, ShaftRotor
 from .families import messages, prefixed, remarks_of
 from .journal_tables import film_remarks
 from .shared_tables import GroundTable, Lubricant, UnbalanceTable, oil_remarks, require_kind
+from .turbulent import turbulent_remarks
+from .turbulent_shaft import on_stiff_bearings
 
 if TYPE_CHECKING:
     import control
@@ -278,28 +278,18 @@ def _compressor(scene: Scene) -> tuple[ShaftTable, CompressorTable]:
 # What the physics of all rungs leaves out of a flexible rotor.
 
 
-STIFF = 1e10
-"""Stiffness of bearings [N/m] by which the weight is shared out."""
-
-
 def shaft_remarks(
     rotor: ShaftRotor, bearings: Mapping[str, Reaction], oil: Lubricant, speed: float
 ) -> tuple[str, ...]:
     """Return the neglected effects that matter, one line each, of a shaft in its bearings at a speed."""
-    seals = {name: one for name, one in bearings.items() if isinstance(one, AnnularSeal)}
-    stiff = {
-        name: seals.get(name, LinearBearing(stiffness=STIFF))
-        for name, bearing in bearings.items()
-        if "z" not in freedoms_of(bearing)
-    }
-    at = analysis.rotor_equilibrium(rotor, stiff, speed)
+    at = on_stiff_bearings(rotor, bearings, speed)
     lines = list(beam_remarks(rotor))
     for name, given in bearings.items():
         tilted = isinstance(given, MomentCarryingJournal)
         bearing = given.bearing if isinstance(given, MomentCarryingJournal) else given
         if isinstance(bearing, JournalBearing):
             x, y = at.loads[name].tolist()[:2]
-            found = film_remarks(bearing, oil, speed, (x, y))
+            found = (*turbulent_remarks(bearing, speed, (x, y)), *film_remarks(bearing, oil, speed, (x, y)))
             found += () if tilted else tilt_remarks(rotor, name, bearing, at)
             lines += prefixed(f"{name}, at {speed:.4g} rad/s: ", found)
     return tuple(lines)

@@ -10,7 +10,7 @@ from typing import Any
 from ..analysis import equilibrium
 from ..bearings.films.turbulence import CLOSURES, Turbulence, onset
 from ..bearings.journal import ExtrapolatedFilm, JFOFilm, JournalBearing, ReynoldsFilm
-from ..bearings.oil.oil import film_reynolds
+from ..bearings.oil.oil import DENSITY, film_reynolds
 from ..core.errors import RotorfilmError, SceneError, ValidityWarning, brief
 from .reading import Keyed, Quantity, Table, choose, flag, one_of, takes
 
@@ -87,9 +87,10 @@ def turbulence_of(bearing: Any, scene: Any) -> Turbulence:
 
 
 def on_oil(effect: Turbulence, bearing: Any, scene: Any) -> Turbulence:
-    """Return a turbulence with the density of the scene's oil, unless it or the bearing has its own."""
-    own = effect.density is not None or bearing.oil is not None
-    return effect if own else replace(effect, density=scene.lubricant.properties.density)
+    """Return a turbulence with the density of the scene's oil, unless it or the bearing has it already."""
+    density = scene.lubricant.properties.density
+    own = effect.density is not None or bearing.oil is not None or density == DENSITY
+    return effect if own else replace(effect, density=density)
 
 
 def is_left_laminar(table: Any, scene: Any) -> bool:

@@ -55,7 +55,9 @@ def test_films_of_a_family_differ_in_the_locus_and_the_legend_leaves_it_free():
 
 def test_coupling_error_marks_the_limit_and_the_refused_runs():
     angles, errors = np.radians([1.0, 2.0, 12.0]), np.array([1e-3, 2e-3, 0.1])
-    axes = plot_coupling_error(angles, errors, np.array([False, False, True]), limit=np.radians(10.0))
+    (axes,) = plot_coupling_error(
+        angles, errors, np.array([False, False, True]), limit=np.radians(10.0)
+    ).draw()
     runs, refused, slope, limit = axes.get_lines()
     np.testing.assert_allclose(runs.get_xdata(), [1.0, 2.0])
     np.testing.assert_allclose(refused.get_ydata(), [0.1])

@@ -116,10 +116,10 @@ def test_ladder_has_a_panel_for_each_bearing():
         for case in HEAT_CASES
         for k, model in enumerate(HeatModel, 1)
     )
-    shown = plot_study(StudyResult(study="heat", reference="finer", rungs=rungs))
-    assert len(shown) == len(HEAT_CASES)
-    filled = [line for line in shown[0].get_lines() if line.get_markersize() == 7]
-    np.testing.assert_allclose([line.get_xdata()[0] for line in filled], 1e-3 * np.arange(1.0, 7.0))
-    np.testing.assert_allclose([line.get_ydata()[0] for line in filled], 0.5 / np.arange(1.0, 7.0))
-    assert [axes.get_title() for axes in shown] == [case.name for case in HEAT_CASES]
-    assert {text.get_text() for text in shown[0].texts} == {model.label for model in HeatModel}
+    picture = plot_study(StudyResult(study="heat", reference="finer", rungs=rungs))
+    first = picture.panels[0]
+    assert [one.title for one in picture.panels] == [case.name for case in HEAT_CASES]
+    dots = np.array([(*one.x, *one.y) for one in first.curves.values()])
+    np.testing.assert_allclose(dots[:, 0], 1e-3 * np.arange(1.0, 7.0))
+    np.testing.assert_allclose(dots[:, 1], 0.5 / np.arange(1.0, 7.0))
+    assert {text.get_text() for text in picture.draw()[0].texts} == {model.label for model in HeatModel}

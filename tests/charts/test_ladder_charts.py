@@ -3,8 +3,15 @@
 import numpy as np
 import pytest
 
-from rotorfilm.charts import new_axes, plot_journal_stability, plot_study, plot_thresholds
-from rotorfilm.charts.canvas import BAD, DOUBTFUL, FAMILY_COLORS, FAMILY_WIDTHS, GOOD, Label, place_labels
+from rotorfilm.charts import (
+    NoteMark,
+    new_axes,
+    plot_journal_stability,
+    plot_study,
+    plot_thresholds,
+    verdict_table,
+)
+from rotorfilm.charts.canvas import FAMILY_COLORS, FAMILY_WIDTHS, place_labels
 from rotorfilm.charts.whirl_verdicts import verdicts
 from rotorfilm.studies import StudyResult, StudyRow, journal_rungs
 from rotorfilm.studies.journal_stability import by_film
@@ -64,33 +71,35 @@ def test_every_family_has_a_color_and_a_width():
 
 def test_verdicts_tell_the_four_faults(thresholds):
     good, fixed, first = map(verdicts, by_film(thresholds).values())
-    assert [text for text, _ in good] == ["0 %", "nowhere", "none", "0"]
-    assert {color for _, color in good} == {GOOD}
-    assert [text for text, _ in fixed] == ["20 %", "0.5 to 0.9", "80 % of states", "0"]
-    assert [color for _, color in fixed] == [BAD, BAD, BAD, GOOD]
-    assert [text for text, _ in first] == ["rank-1 damping", "0.2 to 0.5", "none", "50 %"]
-    assert first[3][1] == DOUBTFUL
+    assert good == ("0 %", "nowhere", "none", "0")
+    assert fixed == ("20 %", "0.5 to 0.9", "80 % of states", "0")
+    assert first == ("rank-1 damping", "0.2 to 0.5", "none", "50 %")
+    table = verdict_table(thresholds)
+    assert list(table.columns[1].values) == ["0 %", "20 %", "rank-1 damping"]
 
 
 def test_stability_marks_missing_thresholds_and_dots_wrong_ones(thresholds):
-    top, _, table = plot_journal_stability(thresholds)
-    crosses = [line for line in top.get_lines() if line.get_marker() == "x"]
-    np.testing.assert_array_equal(crosses[0].get_xdata(), [0.2, 0.5])
-    width = FAMILY_WIDTHS["fixed arc"]
-    (fixed,) = [line for line in top.get_lines() if line.get_linewidth() == width]
-    np.testing.assert_array_equal(fixed.get_ydata(), [2.6, np.nan, np.nan])
-    assert "published x" in [text.get_text() for text in table.texts]
+    picture = plot_journal_stability(thresholds)
+    top, below = picture.panels
+    (crosses,) = [one for one in top.marks if getattr(one, "marker", "") == "x"]
+    np.testing.assert_array_equal(crosses.x, [0.2, 0.5])
+    np.testing.assert_array_equal(top.curves["fixed arc"].y, [2.6, np.nan, np.nan])
+    assert top.curves["fixed arc"].width == FAMILY_WIDTHS["fixed arc"]
+    assert [one.text for one in top.marks if isinstance(one, NoteMark)] == [
+        "published x: no threshold exists"
+    ]
+    gaps = [one.y for one in below.marks if getattr(one, "color", "") == FAMILY_COLORS["fixed arc"]]
+    np.testing.assert_allclose(gaps, [[0.03, 20.0, np.nan]])
+    assert [len(axes.get_lines()) > 3 for axes in picture.draw()] == [True, True]
+    assert picture.to_plotly().to_json()
 
 
 def test_wider_curves_lie_below_and_the_working_point_is_marked(thresholds):
-    axes = plot_thresholds(thresholds, point=(0.3, 1.0))
-    widths = [line.get_linewidth() for line in axes.get_lines() if line.get_linestyle() in ("-", "--")][:3]
-    assert widths == sorted(widths, reverse=True)
-    (star,) = [line for line in axes.get_lines() if line.get_marker() == "*"]
-    assert (star.get_xdata()[0], star.get_ydata()[0]) == (0.3, 1.0)
-    labels = [text.get_text() for text in axes.get_legend().get_texts()]
-    assert labels[-1] == "working point"
-    assert "published x: no threshold exists" in [text.get_text() for text in axes.texts]
+    curves = plot_thresholds(thresholds, point=(0.3, 1.0)).panels[0].curves
+    widths = [curves[name].width for name in ("fixed arc", "published", "map")]
+    drawn = [name for name in curves if name in FAMILY_WIDTHS]
+    assert [FAMILY_WIDTHS[name] for name in drawn] == sorted(widths, reverse=True)
+    assert (curves["working point"].x, curves["working point"].y) == ([0.3], [1.0])
 
 
 def test_accuracy_draws_both_costs_and_the_gain_of_the_map():
@@ -103,21 +112,26 @@ def test_accuracy_draws_both_costs_and_the_gain_of_the_map():
         "reference error, median [1]": 1e-6,
         "reference error, 99 % [1]": 1e-5,
     }
-    result = StudyResult(study="journal", reference="2-D", conditions=conditions, rungs=rungs)
-    batch, single = plot_study(result)
-    filled = [line for line in batch.get_lines() if line.get_marker() == "o" and line.get_markersize() == 7]
-    np.testing.assert_allclose([line.get_xdata()[0] for line in filled], [1e-6, 3.5e-3, 1e-7])
-    np.testing.assert_allclose([line.get_ydata()[0] for line in filled], [1.0, 1e-4, 1e-5])
-    assert "map 35 000 times cheaper" in [text.get_text() for text in batch.texts]
-    assert batch.get_ylim() == single.get_ylim() == plot_study(result, axes=new_axes("one"))[0].get_ylim()
-    assert "states: 9; seed: 1;" in batch.get_figure().get_suptitle()
+    picture = plot_study(StudyResult(study="journal", reference="2-D", conditions=conditions, rungs=rungs))
+    batch, single = picture.panels
+    places = {name: (*one.x, *one.y) for name, one in batch.curves.items() if one.marker == "o"}
+    assert places == {"short film": (1e-6, 1.0), "2-D": (3.5e-3, 1e-4), "map": (1e-7, 1e-5)}
+    notes = [one.text for one in batch.marks if isinstance(one, NoteMark)]
+    assert notes == ["map 35 000 times cheaper", "x", "x", "x"]
+    assert batch.y_limits == single.y_limits
+    assert "states: 9; seed: 1;" in picture.title
+    assert picture.to_plotly().to_json()
+    axes = picture.draw()
+    assert [axes[1].get_legend() is None, axes[0].get_legend() is None] == [False, True]
+    assert {"map 35 000 times cheaper", "x"} == {text.get_text() for text in axes[0].texts}
+    assert batch.y == "99 % error [1] filled, median error [1] open"
 
 
 def test_labels_of_close_points_do_not_overlap():
     axes = new_axes("crowded")
     x, y = np.random.default_rng(1).uniform(0.3, 0.7, (2, 12))
     axes.set(xlim=(0.0, 1.0), ylim=(0.0, 1.0))
-    place_labels(axes, [Label(*point, "a label", "k") for point in zip(x, y, strict=True)])
+    place_labels(axes, [NoteMark(*point, "a label") for point in zip(x, y, strict=True)])
     figure = axes.get_figure()
     figure.draw_without_rendering()
     boxes = [text.get_window_extent() for text in axes.texts]

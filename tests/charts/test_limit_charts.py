@@ -2,10 +2,8 @@
 
 import numpy as np
 import pytest
-from matplotlib.colors import to_rgba
 
-from rotorfilm.charts import plot_limit_summary, plot_limits
-from rotorfilm.charts.study_charts import DEPENDS, FAILS, HOLDS
+from rotorfilm.charts import BarsMark, NoteMark, plot_limit_summary, plot_limits
 from rotorfilm.studies import Panel, StudyResult
 from rotorfilm.studies.limits_atlas import panel_points
 
@@ -31,31 +29,31 @@ def atlas():
     return StudyResult(study="limits", reference="", notes=notes, rungs=points)
 
 
-def test_each_physics_has_a_figure_whose_legends_lie_within_it(atlas):
+def test_each_physics_has_a_picture_whose_legends_lie_within_it(atlas):
     drawn = plot_limits(atlas)
-    assert {name: [one.get_title() for one in axes] for name, axes in drawn.items()} == {
+    assert {name: [one.title for one in picture.panels] for name, picture in drawn.items()} == {
         "journal": ["grid"],
         "rotor": ["step", "longest step"],
     }
-    assert drawn["journal"][0].figure is not drawn["rotor"][0].figure
-    for axes in (one for each in drawn.values() for one in each):
-        axes.figure.canvas.draw()
-        legend, whole = axes.get_legend().get_window_extent(), axes.figure.bbox
-        assert legend.x0 >= whole.x0
-        assert legend.x1 <= whole.x1
-        assert not legend.overlaps(axes.get_window_extent())
+    assert "failed: 0.1" in {getattr(one, "label", "") for one in drawn["rotor"].panels[0].marks}
+    for picture in drawn.values():
+        assert picture.to_plotly().to_json()
+        for axes in picture.draw():
+            axes.figure.canvas.draw()
+            legend, whole = axes.get_legend().get_window_extent(), axes.figure.bbox
+            assert legend.x0 >= whole.x0
+            assert legend.x1 <= whole.x1
+            assert not legend.overlaps(axes.get_window_extent())
 
 
 def test_the_summary_tells_where_all_some_and_no_variants_hold(atlas):
-    grid, step = plot_limit_summary(atlas)  # that which is a limit itself has no strip
-    spans = {
-        axes: [
-            (p.get_facecolor(), round(p.get_x(), 6), round(p.get_x() + p.get_width(), 6))
-            for p in axes.patches
-        ]
-        for axes in (grid, step)
-    }
-    colors = [to_rgba(color) for color in (HOLDS, DEPENDS, FAILS)]
-    assert spans[grid] == [(colors[0], 0.1, 1.0), (colors[1], 1.0, 10.0), (colors[2], 10.0, 10.0)]
-    assert spans[step][0] == (colors[0], 0.1, 10.0)
-    assert grid.get_ylabel() == "journal: grid"
+    """Of the range from 0.1 to 10, the coarse grid holds to 1 and the fine one to 10."""
+    picture = plot_limit_summary(atlas)  # that which is a limit itself has no bar
+    bars = {one.label: one for one in picture.panels[0].marks if isinstance(one, BarsMark)}
+    assert list(bars["some"].places) == ["rotor: step", "journal: grid"]
+    np.testing.assert_allclose(bars["all variants"].tops, [1.0, 0.5])
+    np.testing.assert_allclose(bars["some"].tops, [1.0, 1.0])
+    notes = [one.text for one in picture.panels[0].marks if isinstance(one, NoteMark)]
+    assert notes == ["size: from 0.1 to 10, of 10", "size: from 0.1 to 1 or 10, of 10"]
+    assert picture.draw()
+    assert picture.to_plotly().to_json()

@@ -1,13 +1,14 @@
 """Charts of bearings made of pads draw what the results say."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from draw_pads import CLEARANCE, JOURNAL, arc, draw, tilting
 
 from rotorfilm import lobe_set
-from rotorfilm.charts import plot_bearing_thresholds, plot_study
+from rotorfilm.charts import NoteMark, plot_bearing_thresholds, plot_study
 from rotorfilm.studies import StudyResult, StudyRow
 
 TURN = 2.0 * math.pi / 60.0
@@ -28,14 +29,17 @@ def test_coefficients_are_drawn_entry_by_entry():
         )
         for S, film, first in ((0.1, 0.1, 1), (1.0, 0.9, 5))
     )
-    shown = plot_study(StudyResult(study="bearings", reference="S so and so", rungs=rungs))
-    drawn = [axes.get_lines()[0].get_ydata().tolist() for axes in shown]
+    picture = plot_study(StudyResult(study="bearings", reference="S so and so", rungs=rungs))
+    drawn = [list(panel.curves["one"].y) for panel in picture.panels]
     assert drawn == [[1, 5], [2, 6], [3, 7], [4, 8], [10, 50], [20, 60], [40, 80], [0.1, 0.9]]
-    assert "S so and so" in shown[0].figure.get_suptitle()
-    assert [axes.get_yscale() for axes in shown] == [
-        *("log", "symlog", "symlog", "log"),
-        *("log", "symlog", "log", "linear"),
-    ]
+    assert "S so and so" in picture.title
+    assert [panel.log for panel in picture.panels] == ["xy"] * 7 + ["x"]
+    assert picture.draw()
+    turned = (rungs[0], replace(rungs[1], values={**rungs[1].values, "Kxy c/W [1]": -6.0}))
+    panel = plot_study(StudyResult(study="bearings", reference="", rungs=turned)).panels[1]
+    dotted, solid = panel.marks
+    np.testing.assert_array_equal([dotted.y, solid.y], [[np.nan, 6.0], [2.0, np.nan]])
+    assert (dotted.dash, panel.y) == (":", "Kxy c/W [1], negative dotted")
 
 
 def test_bearings_that_never_whirl_lie_on_the_edge():
@@ -59,16 +63,16 @@ def test_bearings_that_never_whirl_lie_on_the_edge():
         "searched to [rad/s]": 1000.0,
     }
     result = StudyResult(study="whirl", reference="", conditions=conditions, rungs=rungs)
-    axes = plot_bearing_thresholds(result)
-    lines = {line.get_label(): line for line in axes.get_lines()}
+    (panel,) = plot_bearing_thresholds(result).panels
     top = 1000.0 / TURN
-    assert lines["plain"].get_ydata() == pytest.approx([100.0, 200.0])
-    assert lines["tilting: no whirl"].get_ydata() == pytest.approx([top, top])
-    assert axes.get_ylim()[1] == pytest.approx(top)
-    crosses = [line.get_xdata().tolist() for line in axes.get_lines() if line.get_marker() == "x"]
+    assert panel.curves["plain"].y == pytest.approx([100.0, 200.0])
+    assert panel.curves["tilting: no whirl"].y == pytest.approx([top, top])
+    assert panel.y_limits[1] == pytest.approx(top)
+    crosses = [one.x for one in panel.marks if getattr(one, "marker", "") == "x"]
     assert crosses == [[], [], [500.0]]
-    assert "no whirl at any speed searched" in axes.get_title()
-    assert plot_bearing_thresholds(result, axes=axes) is axes
+    assert "no whirl at any speed searched" in panel.title
+    assert "weight" in {getattr(one, "label", "") for one in panel.marks}
+    assert plot_bearing_thresholds(result).to_plotly().to_json()
 
 
 def test_films_of_pads_are_drawn_over_their_cost():
@@ -97,13 +101,15 @@ def test_films_of_pads_are_drawn_over_their_cost():
         "seed [-]": 1,
         "reference error, 99 % [1]": 1e-4,
     }
-    result = StudyResult(study="pads", reference="a film", conditions=conditions, rungs=tuple(rungs))
-    batch, alone = plot_study(result)
-    filled = [line.get_data() for line in batch.get_lines() if line.get_markersize() == 7]
-    assert np.ravel(filled) == pytest.approx([1e-7, 4e-3, 1e-5, 2e-3])
-    texts = {text.get_text() for text in alone.texts}
-    assert texts == {"map", "grid", "gray: error of the reference "}
-    assert "reference: a film" in batch.figure.get_suptitle()
+    picture = plot_study(
+        StudyResult(study="pads", reference="a film", conditions=conditions, rungs=tuple(rungs))
+    )
+    batch, alone = picture.panels
+    places = [(*one.x, *one.y) for one in batch.curves.values()]
+    assert places == [(1e-7, 4e-3), (1e-5, 2e-3)]
+    assert {one.text for one in alone.marks if isinstance(one, NoteMark)} == {"map", "grid"}
+    assert "error of the reference" in {getattr(one, "label", "") for one in alone.marks}
+    assert "reference: a film" in picture.title
 
 
 def test_picture_of_the_page_shows_the_clearances_as_they_are(tmp_path):

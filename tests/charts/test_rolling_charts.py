@@ -57,7 +57,7 @@ def test_models_beside_each_other():
     errors = {name: rung["median error of K [1]"] for name, rung in by_name.items()}
     assert errors["closed form"] > errors["running balls"]
     assert 1e-4 < errors["static balls"] < 0.5
-    (axes,) = plot_study(found)
+    (axes,) = plot_study(found).draw()
     assert {text.get_text() for text in axes.texts} == set(by_name)
     assert {len(column) for column in found.columns().values()} == {3}
 

@@ -37,7 +37,7 @@ def test_the_closed_form_of_the_shaft_is_high_everywhere(tiers):
 
 
 def test_the_chart_has_every_tier_and_every_line(tiers):
-    cost, angle, shaft = plot_study(tiers)
+    cost, angle, shaft = plot_study(tiers).draw()
     marks = sum(len(line.get_xdata()) for line in cost.lines)
     assert marks == len(tiers.rungs)
     assert len(angle.lines) == len({tier.family for tier in tiers.rungs}) + 1

@@ -105,3 +105,11 @@ def test_probes_at_an_angle_see_the_orbit_on_turned_axes():
     x, y = plain.frdata[first : first + 2, 0, 0]
     cos, sin = np.cos(0.7), np.sin(0.7)
     np.testing.assert_allclose(turned.frdata[first : first + 2, 0, 0], [cos * x + sin * y, cos * y - sin * x])
+
+
+def test_bearings_of_a_saved_rotor_stay_as_turbulent_as_they_are(tmp_path):
+    thin = replace(FILM, viscosity=1e-3, grooves=())
+    held = {"left": thin, "right": replace(thin, turbulence=rf.bearings.Turbulence(closure="hirs"))}
+    scene = scene_of(ROTOR, held, np.linspace(1000.0, 4000.0, 7))
+    assert scene.shaft.build_bearings() == held
+    assert rf.Scene.load(scene.save(tmp_path / "rotor.toml")).shaft.build_bearings() == held

@@ -166,3 +166,89 @@ def test_the_full_stress_is_that_of_the_note():
     assert np.hypot(*full) / np.hypot(*linear) - 1.0 == pytest.approx(0.014, abs=1e-3)
     eased = rf.equilibrium(bearing, np.array([0.0, -3e5]) + full - linear, speed)
     assert at.eccentricity_ratio - eased.eccentricity_ratio == pytest.approx(0.0035, abs=4e-4)
+
+
+SHAFT = """
+schema = 1
+[shaft]
+material = {{ young_modulus = "210 GPa", shear_modulus = "80 GPa", density = 7850 }}
+elements = [{{ length = 6.0, outer_diameter = 0.7, pieces = 2 }}]
+disks = [{{ node = 1, width = "1 m", outer_diameter = 1.6 }}]
+speeds = {{ first = "2000 rpm", last = "2400 rpm", count = 3 }}
+unbalances = [{{ node = 1, unbalance = 0.1 }}]
+bearings = [
+    {{ name = "a", node = 0, journal = {{ {size}, viscosity = "{warm}", turbulence = {choice} }} }},
+    {{ name = "b", node = 2, journal = {{ {size}, viscosity = "0.1 Pa s" }} }},
+]
+[lubricant]
+density = 855
+[operation]
+speed = "{speed} rpm"
+"""
+SIZE = 'radius = "250 mm", length = "400 mm", clearance = "0.5 mm"'
+
+
+def shaft(choice='"auto"', speed=3000, warm="0.0156 Pa s", further=""):
+    return parse_scene(SHAFT.format(size=SIZE, choice=choice, speed=speed, warm=warm) + further, "case.toml")
+
+
+def effects(scene):
+    return [one.journal.turbulence for one in scene.shaft.bearings]
+
+
+def test_each_bearing_of_a_shaft_is_decided_at_the_highest_speed_that_is_asked():
+    """The onset, Reynolds number 921, is at 1285 rpm in the thin oil; the thick oil is laminar."""
+    quadrature = Turbulence(closure="reichardt", density=855.0)
+    assert effects(shaft()) == [quadrature, "auto"]
+    assert effects(shaft(speed=500)) == [quadrature, "auto"]  # by shaft.speeds
+    orbit = QUESTION.format(quantity="unbalance_amplitude", tolerance=5)
+    assert effects(shaft(speed=1200, further=orbit)) == ["auto", "auto"]
+    assert effects(shaft(speed=1350, further=orbit)) == [quadrature, "auto"]
+    threshold = QUESTION.format(quantity="whirl_threshold", tolerance=5)
+    assert effects(shaft(speed=500, further=threshold)) == [quadrature, "auto"]
+    assert effects(shaft('{ closure = "hirs" }')) == [Turbulence(closure="hirs", density=855.0), "auto"]
+
+
+def test_a_turbulent_shaft_answers_with_its_numbers_and_the_closure_in_the_estimate():
+    asked = shaft(further=QUESTION.format(quantity="unbalance_amplitude", tolerance=5))
+    answer = quietly(asked.ask)
+    assert answer.met
+    assert "turbulent by reichardt" in answer.within
+    assert any(one.startswith("a, at 314.2 rad/s: turbulence: Reynolds") for one in answer.remarks)
+    assert not any(one.startswith("b") and "turbulence" in one for one in answer.remarks)
+    assert "; closure, " in answer.rungs[0].method
+
+
+def test_a_laminar_shaft_above_the_onset_meets_no_tolerance_and_knows_its_error():
+    further = QUESTION.format(quantity="unbalance_amplitude", tolerance=90)
+    laminar, own = (quietly(shaft(one, further=further).ask) for one in ('"none"', '"auto"'))
+    assert not laminar.met
+    assert laminar.rungs[0].reason == "a laminar film above the onset of turbulence meets no tolerance"
+    truth = abs(laminar.value / own.value - 1.0)
+    assert truth > 0.01
+    assert 0.5 * truth < laminar.error_estimate < 2.0 * truth
+    below = quietly(shaft('"none"', speed=1200, further=further).ask)
+    assert below.met
+
+
+@pytest.mark.long
+def test_a_threshold_in_a_jump_of_a_film_on_a_grid_is_found():
+    """Stiffness and damping jump there by 0.1 %; `rotor_threshold` is another search, on all coordinates."""
+    text = SHAFT.format(size=SIZE, choice='"ng_pan"', speed=3000, warm="0.0156 Pa s")
+    text = text.replace('"0.1 Pa s"', '"0.0156 Pa s", turbulence = "ng_pan"')
+    asked = parse_scene(text + QUESTION.format(quantity="whirl_threshold", tolerance=5), "case.toml")
+    answer = quietly(asked.ask)
+    assert answer.met
+    parts = asked.shaft.build(), asked.shaft.build_bearings(), asked.shaft.speeds.build()
+    assert answer.value == pytest.approx(quietly(lambda: rf.rotor_threshold(*parts)).speed, rel=1e-3)
+
+
+def test_the_laminar_warning_of_a_film_is_given_once_in_an_answer():
+    further = 'viscosity_40 = "32 cSt"\nviscosity_100 = "5.36 cSt"\nsupply_temperature = "45 degC"\n'
+    asked = scene(
+        'turbulence = "none"', further=further + QUESTION.format(quantity="power_loss", tolerance=5)
+    )
+    with pytest.warns(ValidityWarning) as said:
+        asked.ask()
+    assert sum("beyond the Reynolds number" in str(one.message) for one in said) == 1
+    assert all(one.filename == __file__ for one in said)

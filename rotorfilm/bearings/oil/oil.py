@@ -720,5 +720,6 @@ class LaminarFilm(FilmUnits):
                 f"the film has Reynolds number {found.reynolds:.4g} and Taylor number {found.taylor:.3g} at "
                 f"{speed:.6g} rad/s and {density:.4g} kg/m3, beyond the Reynolds number {most:.4g} at which "
                 f"{begins}: a real film takes more power and gets warmer than this laminar one. "
-                "The argument turbulence=rotorfilm.bearings.Turbulence(), or that key of a scene, models it"
+                "The argument turbulence=rotorfilm.bearings.Turbulence(), or that key of a scene, models it",
+                key=("laminar", R, c, speed),
             )

@@ -23,6 +23,7 @@ from ..description import (
     dependencies,
     fmi_variables,
     in_arrays,
+    in_maps,
     labelled,
     references,
     require_unique,
@@ -142,6 +143,8 @@ def native_model_variables(export: Export) -> tuple[Variable, ...]:
     known = (time, *parameters, *fmi_variables(model, component, start))
     variables = (*known, *_slopes(known), *_switches(export))
     require_unique(variables)
+    if export.arrays and export.spec.sampled:
+        variables = in_maps(variables)
     return in_arrays(variables, component) if export.arrays else variables
 
 
@@ -181,7 +184,14 @@ def _files(export: Export, variables: tuple[Variable, ...]) -> dict[str, bytes]:
         **licenses((PACKAGE,)),
         **foreign_licenses(),
         **_pictures(export),
-        **terminal_files(export.model, export.component, variables, export.prefix, export.version == "3.0"),
+        **terminal_files(
+            export.model,
+            export.component,
+            variables,
+            export.prefix,
+            export.version == "3.0",
+            export.spec.sampled if export.arrays else None,
+        ),
         "documentation/index.html": _page(export, variables),
         REFERENCE: _reference(export, variables),
     }

@@ -40,6 +40,7 @@ RF_KERNEL(reynolds_journal, RF_ROTORFILM_GRIDS | RF_ROTORFILM_GRID_SYSTEMS, groo
 RF_KERNEL(rigid_rotor, RF_ROTORFILM_STATES, rotor)
 RF_KERNEL(rotor_system, RF_ROTORFILM_SYSTEMS | RF_ROTORFILM_GRID_SYSTEMS, rotor_system)
 RF_KERNEL(short_journal, RF_ROTORFILM | RF_ROTORFILM_SYSTEMS | RF_ROTORFILM_GRID_SYSTEMS, short_journal)
+RF_KERNEL(tabulated, RF_ROTORFILM_STATES, linear)
 RF_KERNEL(thrust, RF_ROTORFILM_GRIDS, thrust)
 RF_KERNEL(tilted_journal, RF_ROTORFILM_HEAT, journal)
 RF_KERNEL(tilting_journal, RF_ROTORFILM_PADS, tilting_journal)
