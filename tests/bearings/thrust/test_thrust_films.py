@@ -315,8 +315,10 @@ def test_held_pads_have_the_stiffness_of_ross_at_its_film():
 
     warm = ROSS.at_temperature(brentq(lambda T: film(T) - 0.131e-3, 313.2, 345.0, xtol=1e-3))
     at = rf.equilibrium(warm, load, speed)
-    held, _ = warm.held_coefficients(at.position, speed)
+    held, damping = warm.held_coefficients(at.position, speed)
     assert held[0, 0] == pytest.approx(3.1763e11, rel=0.03)
+    # Finite volumes of another program have 1.62e10; where viscosity falls along the pad 0.98e10.
+    assert damping[0, 0] == pytest.approx(1.623e10, rel=0.01)
     assert warm.losses(at.position, STILL, speed).highest_pressure == pytest.approx(6.957e6, rel=0.05)
 
 
