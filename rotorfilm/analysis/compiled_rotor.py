@@ -167,19 +167,11 @@ class Parts(NamedTuple):
     names : tuple of str
         Stations of the bearings.
     rows : ndarray, shape (2 n_bearings, N)
-<<<<<<< HEAD
         Displacement of their journals; (4 n_bearings, N), of two points of each, where one feels its tilt.
-    base : BaseMotion or None
-        Of the ground; None where it is still.
-    moved : ndarray, shape (N, 2)
-        Coordinates of a translation of the rotor along x and y, none where the ground is still.
-=======
-        Displacement of their journals.
     excited : ndarray, shape (1 + m, n), or None
         Times and excitation over them, as acceleration of the ground along x and y; None without.
     moved : ndarray, shape (N, m)
         Acceleration of the coordinates per excitation.
->>>>>>> main
     """
 
     structure: Structure
@@ -353,11 +345,11 @@ def journal_rows(parts: Parts) -> Array:
 def state_matrices(parts: Parts, speed: float) -> tuple[Array, Array, Array]:
     """Return A (2 N, 2 N) without films, B (2 N, 2 n_bearings + 2), the weight's acceleration (2 N,)."""
     model = solved_equations(parts.structure)
+    places = [2 * parts.structure.stations.index(name) + axis for name in parts.names for axis in range(2)]
+    forces = model.push[:, places]
     if parts.points > 1:
         forces = np.vstack([np.zeros_like(parts.rows.T), np.linalg.solve(parts.structure.mass, parts.rows.T)])
-        return model.steady + speed * model.by_speed, np.hstack([forces, model.unbalance]), model.weight
-    places = [2 * parts.structure.stations.index(name) + axis for name in parts.names for axis in range(2)]
-    pushes = [model.push[:, places], model.unbalance]
+    pushes = [forces, model.unbalance]
     if parts.excited is not None:
         pushes.append(np.vstack([np.zeros_like(parts.moved), parts.moved]))
     return (
