@@ -93,7 +93,8 @@ def simulate_rotor(
     ----------
     mounted : MountedRotor
         Mounted rotor from `mount`, with a bearing without states in at least one station, and without free
-        force inputs. Its speed may be a profile.
+        force inputs. Its bearings react to x and y, or are a `MomentCarryingJournal`. Its speed may be a
+        profile.
     duration : float [s]
     samples : int
         Number of samples at equal distance, from 0 to `duration` inclusive.
@@ -155,9 +156,8 @@ def _verified(
     dense = np.union1d(grid, np.linspace(0.0, duration, CHECKED))
     work: Counter[str] = Counter()
     for mounted, state, neglected in starts:
-        run, states, failure = run_of(
-            mounted, state, take_apart(mounted), grid if neglected is None else dense
-        )
+        parts = take_apart(mounted, tilts=True)
+        run, states, failure = run_of(mounted, state, parts, grid if neglected is None else dense)
         work.update(run.work)
         if neglected is None or neglected.largest(run, states) <= condensation:
             break
@@ -216,9 +216,11 @@ def _trajectory(
     signals = dict(zip(names(rotor.outputs), outputs, strict=True))
     for name, bearing in zip(parts.names, parts.bearings, strict=True):
         prefix = f"{name}_" if name else ""
-        x, y, vx, vy = (signals[prefix + key] for key in ("x", "y", "vx", "vy"))
-        force = bearing.force(np.stack([x, y]), np.stack([vx, vy]), signals["speed"])
-        signals[prefix + "force_x"], signals[prefix + "force_y"] = force
+        *motion, _ = (signals[prefix + key.name] if key.name != "speed" else 0.0 for key in bearing.inputs)
+        half = len(motion) // 2
+        force = bearing.force(np.stack(motion[:half]), np.stack(motion[half:]), signals["speed"])
+        for out, row in zip(bearing.outputs, force, strict=False):
+            signals[prefix + out.name] = row
     known = {**dict.fromkeys(signals, "N"), **units(rotor.outputs)}
     return Trajectory(time=time, signals=signals, work=work, units=known)
 
