@@ -97,6 +97,7 @@ if TYPE_CHECKING:
         film_system as film_system,
         linearize as linearize,
     )
+    from .many_runs import simulate_many as simulate_many
     from .nonlinear_system import ModelSystem, to_nlsys as to_nlsys
     from .periodic_orbit import PeriodicOrbit as PeriodicOrbit, periodic_orbit as periodic_orbit
     from .rotor_equilibrium import (

@@ -312,8 +312,8 @@ def cavity_of(
     right[np.arange(len(inlets)), inlets] = into.ravel()[inlets]
     right[len(inlets) :] = -np.concatenate(slopes).reshape(-1, lines * along)
     in_film = np.where(full.ravel(), right, 0.0).reshape(columns, lines, along)
-    change = oil_response(e, state.solution.full, np.where(empty, KEEPS, 0.0), in_film)
-    change = np.where(full, change.real, 0.0)
+    change: Array = oil_response(e, state.solution.full, np.where(empty, KEEPS, 0.0), in_film).real
+    change = np.where(full, change, 0.0)
     aside = np.zeros((columns, lines, 1))
     beside = np.concatenate([aside, change, aside], axis=2)
     arriving = np.roll(e.around, 1, axis=0) * np.roll(change, 1, axis=1) + e.around * np.roll(
