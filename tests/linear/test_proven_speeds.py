@@ -10,6 +10,7 @@ from numpy.testing import assert_allclose
 from scipy import sparse
 from scipy.linalg import eigh
 
+import rotorfilm as rf
 from rotorfilm import ConvergenceError, LinearBearing, TabulatedBearing, TiltingPadBearing, even_pivots
 from rotorfilm.analysis import (
     base_system,
@@ -344,3 +345,31 @@ def test_critical_speeds_on_rigid_bearings_are_the_limit_of_stiff_ones(count):
 
 def test_equilibria_count_their_steps():
     assert 1 <= rotor_equilibrium(long_rotor(6), FILMS, 150.0).work["newton_steps"] <= 12
+
+
+def test_critical_speeds_on_tilting_pads_are_proven_in_few_shapes():
+    steel = rf.ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
+    disk = {"density": 7810.0, "width": 0.07, "inner_diameter": 0.05}
+    rotor = rf.ShaftRotor(
+        elements=rf.ShaftElement(length=1.5, outer_diameter=0.05, material=steel).split(12),
+        disks=tuple(rf.Disk.solid(k, outer_diameter=0.3, **disk) for k in (4, 8)),
+        stations=(rf.Station(node=0, name="left"), rf.Station(node=12, name="right")),
+        speed=100.0,
+    )
+    pads = rf.TiltingPadBearing(
+        radius=0.05,
+        length=0.05,
+        assembled_clearance=1e-4,
+        viscosity=0.05,
+        pivots=rf.even_pivots(4, between_pads=True),
+        extent=math.radians(72),
+        preload=0.3,
+    )
+    bearings = {"left": pads, "right": pads}
+    found = critical_speeds(rotor, bearings, np.linspace(90.0, 150.0, 4))
+    assert len(found) == 2
+    # The shapes of a rotor of 52 coordinates suffice where the error of a whirl is that of its own K(s).
+    assert found.work["eigenproblems"] < 40
+    for one in found:
+        near = rf.rotor_modes(rotor, bearings, one.speed).frequency
+        assert np.abs(near - one.speed).min() < 1e-8 * one.speed
