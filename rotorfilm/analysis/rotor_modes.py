@@ -14,7 +14,14 @@ from scipy.interpolate import PchipInterpolator
 from scipy.linalg import eig
 from scipy.optimize import brentq, linear_sum_assignment
 
-from ..core.errors import ConvergenceError, InputError, require_finite, require_number, require_positive
+from ..core.errors import (
+    ConvergenceError,
+    EquilibriumError,
+    InputError,
+    require_finite,
+    require_number,
+    require_positive,
+)
 from ..core.frames import Column, ResultTable
 from ..core.inputs import arguments
 from ..core.model import Array
@@ -31,6 +38,7 @@ from .modal_reduction import (
     Condensed,
     TupleWithOperations,
     counted,
+    exact_structure,
     models,
     tally,
     usual_frequency,
@@ -46,6 +54,7 @@ from .rotor_matrices import (
     small_motion,
     value_error,
     whirl_errors,
+    whirl_near,
 )
 from .threads import one_blas_thread
 
@@ -245,8 +254,10 @@ def motions_at(
     speed = require_number("speed", speed)
     require_range(highest_frequency)
     known_to = highest_frequency if highest_frequency < math.inf else usual_frequency(rotor, speed)
+    reach = _FAR * highest_frequency
     found = (
-        _motions(model, rest(model.structure, bearings, speed), known_to) for model in models(rotor, known_to)
+        _motions(model, rest(model.structure, bearings, speed), known_to, reach)
+        for model in models(rotor, known_to)
     )
     return next(motions for motions in found if motions.error <= TOLERANCE)
 
@@ -279,9 +290,16 @@ def whirls_of(motions: RotorModes, highest_frequency: float = math.inf) -> Rotor
     )
 
 
-def _motions(model: Condensed, at: RotorEquilibrium, known_to: float) -> RotorModes:
-    """Return the motions of a model of a rotor, in the coordinates of the whole."""
-    parts = [_part(model, at, part, known_to) for part in _bands(model.structure, abs(at.speed))]
+_FAR = 4.0
+"""Frequency with synchronous K and C, over the highest one asked for, beyond which motions are left out."""
+
+
+def _motions(model: Condensed, at: RotorEquilibrium, known_to: float, reach: float = math.inf) -> RotorModes:
+    """Return the motions of a model of a rotor, in the coordinates of the whole.
+
+    On frequency-dependent films those beyond a frequency `reach` [rad/s] are left out.
+    """
+    parts = [_part(model, at, part, known_to, reach) for part in _bands(model.structure, abs(at.speed))]
     values, vectors, errors, rounded = zip(*parts, strict=True)
     shapes = np.hstack(vectors)
     return RotorModes(
@@ -329,7 +347,7 @@ def _bands(structure: Structure, turn: float) -> tuple[Band, ...]:
     return (0.5 * turn, 0.0, turn), (2.0 * turn + 1.0, turn, math.inf)
 
 
-def _part(model: Condensed, at: RotorEquilibrium, band: Band, known_to: float) -> Part:
+def _part(model: Condensed, at: RotorEquilibrium, band: Band, known_to: float, reach: float) -> Part:
     """Return the eigenvalues of a band; not of motion that nothing holds."""
     frequency, low, high = band
     system = small_motion(model.structure, at, frequency)
@@ -343,7 +361,7 @@ def _part(model: Condensed, at: RotorEquilibrium, band: Band, known_to: float) -
     order = np.flatnonzero(chosen)[np.argsort(values.imag[chosen])]
     if frequency_dependent_films(at):
         return _frequency_dependent_part(
-            model, at, frequency, known_to, (values[order], shapes[:, order], rounded[order])
+            model, at, frequency, (known_to, reach), (values[order], shapes[:, order], rounded[order])
         )
     asked = [k for k in order if oscillates(values[k]) and abs(values[k]) <= known_to]
     error = 0.0
@@ -357,24 +375,34 @@ def _frequency_dependent_part(
     model: Condensed,
     at: RotorEquilibrium,
     frequency: float,
-    known_to: float,
+    bounds: tuple[float, float],
     next_to: tuple[np.ndarray, np.ndarray, np.ndarray],
 ) -> Part:
     """Return the motions on frequency-dependent films next to those with K and C of one frequency.
+
+    The bounds are the frequencies up to which their error is asked for, and up to which they are.
 
     Whirl in which the states of a film take part as much as the shaft, as that of a body between two
     reactions, is next to none of these, but known where the states are.
     """
     found: list[tuple[complex, np.ndarray, float]] = []
-    error, (starts, shapes, rounded) = 0.0, next_to
+    (known_to, reach), error, (starts, shapes, rounded) = bounds, 0.0, next_to
     own, ways = joined_whirls(model.structure, at)
     known = all(hasattr(film.dynamic_stiffness, "at") for film in frequency_dependent_films(at).values())
-    given = zip([*starts, *own], np.hstack([shapes, ways]).T, [*rounded, *np.zeros(len(own))], strict=True)
+    joined = known and model.structure.hysteresis is None
+    partner = _continued((starts, shapes), (own, ways), model.structure.mass) if joined else {}
+    alone = [k for k in range(len(starts)) if k not in partner]
+    roundings = np.zeros(len(own))
+    roundings[list(partner.values())] = rounded[list(partner)]
+    values, vectors = np.concatenate([starts[alone], own]), np.hstack([shapes[:, alone], ways])
+    given = zip(values, vectors.T, [*rounded[alone], *roundings], strict=True)
     for k, (start, shape, rounding) in enumerate(given):
+        if start.imag > reach:
+            continue
         try:
             one = frequency_dependent_motion(model.structure, at, frequency, complex(start), shape)
         except ConvergenceError:
-            if known and k < len(starts):  # those that matter are among the eigenvalues with all states
+            if known and k < len(alone):  # those that matter are among the eigenvalues with all states
                 continue
             raise
         if one is None or _is_among(one[0], one[1], found):
@@ -389,6 +417,25 @@ def _frequency_dependent_part(
     values = np.array([value for value, *_ in found], dtype=complex)
     right = np.array([vector for _, vector, _ in found], dtype=complex).reshape(-1, len(shapes))
     return values, right.T, error, np.array([rounding for *_, rounding in found])
+
+
+_ALIKE = 0.1
+"""Difference of two eigenvalues, over the sum of their sizes, below which one may continue the other."""
+
+
+def _continued(
+    starts: tuple[np.ndarray, np.ndarray], own: tuple[np.ndarray, np.ndarray], mass: Any
+) -> dict[int, int]:
+    """Return which motion with all states of the films each of the `starts` leads to, where that is clear.
+
+    Both are eigenvalues and shapes.
+    """
+    before, after = (
+        RotorModes(speed=0.0, eigenvalues=values, shapes=shapes, direction=values.real)
+        for values, shapes in (own, starts)
+    )
+    apart = np.abs(own[0][:, None] - starts[0]) / np.abs(own[0][:, None] + starts[0])
+    return {k: j for k, j in matches(before, after, mass).items() if apart[j, k] < _ALIKE}
 
 
 def _is_among(value: complex, shape: np.ndarray, found: list[tuple[complex, np.ndarray, float]]) -> bool:
@@ -755,6 +802,15 @@ NEUTRAL = 1e-9
 FURTHER = 1e-6
 """Part of a step by which a motion is seen to grow beyond its threshold."""
 
+NEARLY, _AWAY = 1e-4, 1e-2
+"""Relative distance from a threshold from which its motion is followed, and beyond which it is another."""
+
+_SECANTS, _SETTLED = 8, 1e-10
+"""Steps of that, and the last of them over the speed, after which the next one is in roundoff."""
+
+Vanishing = tuple[float, complex, NDArray[np.complex128], float]
+"""A speed [rad/s] with the eigenvalue and the shape that cease to grow there, and |d(rate)/d(speed)|."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class RotorThreshold(Readable):
@@ -992,24 +1048,78 @@ class _Stability(NamedTuple):
     def _change(self, k: int, low: _Growth, high: _Growth) -> StabilityChange:
         """Return where growth number k vanishes between two speeds.
 
-        Whirl that nothing damps or drives has roundoff of either sign, so the search is for a growth above
-        it; from there, and from a speed a little further, the line through 0 is drawn.
+        A search of the sorted growths comes near it. From the growing side its motion is then followed to
+        where its growth is 0. Whirl that nothing damps or drives has roundoff of either sign, so the search
+        is for a growth above it; where no motion is followed it goes on, and the line through 0 is drawn.
         """
-        ends, grown = (low.motions.speed, high.motions.speed), max(low, high, key=lambda one: one.growing)
-        speed = float(brentq(lambda w: self.growth(w).rate(k) - NEUTRAL, *ends, rtol=1e-13))
-        further = self.growth(speed + FURTHER * (grown.motions.speed - speed))
-        place, rise = further.places[k], further.rate(k) - NEUTRAL
-        slope = abs(rise / (further.motions.speed - speed))
-        if rise > 0.0:
-            speed -= NEUTRAL / rise * (further.motions.speed - speed)
-        motions = further.motions
-        whirls, value = oscillates(motions.eigenvalues)[place], complex(motions.eigenvalues[place])
-        change = value_error(self.rotor, self.bearings, motions.speed, value)
-        size = abs(value) + (0.0 if whirls else abs(motions.speed))
+        seen = {one.motions.speed: one for one in (low, high)}
+        root = self._root(k, seen, NEARLY)
+        near = min((w for w in seen if seen[w].rate(k) > NEUTRAL), key=lambda w: abs(w - root))
+        found = self._followed(k, seen[near], root) or self._on_line(k, seen)
+        speed, value, shape, slope = found
+        size = _size(value, speed)
+        change = value_error(self.rotor, self.bearings, speed, value)
         return StabilityChange(
             speed=speed,
-            whirl_frequency=float(motions.frequency[place]) if whirls else 0.0,
-            direction=float(motions.direction[place]),
+            whirl_frequency=value.imag if oscillates(np.array(value)) else 0.0,
+            direction=float(directions(self.rotor.assembly, shape[:, None], speed)[0]),
             growing=0,
             speed_error=change / (size * slope) if change else 0.0,
         )
+
+    def _root(self, k: int, seen: dict[float, _Growth], rtol: float) -> float:
+        """Return a speed near which growth number k passes roundoff, between the ends of those seen."""
+
+        def excess(speed: float) -> float:
+            if speed not in seen:
+                seen[speed] = self.growth(speed)
+            return seen[speed].rate(k) - NEUTRAL
+
+        ends = list(seen)[:2]
+        return float(brentq(excess, *ends, rtol=rtol))
+
+    def _followed(self, k: int, start: _Growth, root: float) -> Vanishing | None:
+        """Return where the motion that is growth number k near a root has none, by secants; None if nowhere.
+
+        Its eigenpair is that of all coordinates, by inverse iteration.
+        """
+        whole, place = exact_structure(self.rotor), start.places[k]
+        model = next(models(self.rotor, usual_frequency(self.rotor, root)))
+        value, shape = complex(start.motions.eigenvalues[place]), start.motions.shapes[:, place]
+        points: list[tuple[float, float]] = []
+        speed = start.motions.speed
+        for _ in range(_SECANTS):
+            try:
+                at = rest(model.structure, self.bearings, speed)
+                bands = _bands(whole, abs(speed))
+                frequency = next(one for one, below, above in bands if below <= value.imag < above)
+                value, shape, _ = whirl_near(whole, at, frequency, value, shape)
+            except (ConvergenceError, EquilibriumError):
+                return None
+            points.append((speed, value.real / _size(value, speed)))
+            if len(points) == 1:
+                speed += 2.0 * (root - speed) or NEARLY * speed
+                continue
+            (last, before), (now, rate) = points[-2:]
+            slope = (rate - before) / (now - last)
+            if not abs(slope) * abs(root) > NEUTRAL or abs(now - rate / slope - root) > _AWAY * abs(root):
+                return None
+            speed = now - rate / slope
+            if abs(speed - now) <= _SETTLED * abs(speed):
+                return speed, value, shape, abs(slope)
+        return None
+
+    def _on_line(self, k: int, seen: dict[float, _Growth]) -> Vanishing:
+        """Return where the line through two growing speeds next to the root is 0."""
+        root, grown = self._root(k, seen, 1e-13), max(list(seen.values())[:2], key=lambda one: one.growing)
+        further = self.growth(root + FURTHER * (grown.motions.speed - root))
+        rise, speed = further.rate(k) - NEUTRAL, further.motions.speed
+        slope = abs(rise / (speed - root))
+        onset = root - NEUTRAL / rise * (speed - root) if rise > 0.0 else root
+        place = further.places[k]
+        return onset, complex(further.motions.eigenvalues[place]), further.motions.shapes[:, place], slope
+
+
+def _size(value: complex, speed: float) -> float:
+    """Return what a growth rate is measured by [1/s]; divergence takes it through 0."""
+    return abs(value) if oscillates(np.array(value)) else abs(value) + abs(speed)
