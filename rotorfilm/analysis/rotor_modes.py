@@ -1081,14 +1081,14 @@ class _Stability(NamedTuple):
     def _followed(self, k: int, start: _Growth, root: float) -> Vanishing | None:
         """Return where the motion that is growth number k near a root has none, by secants; None if nowhere.
 
-        Its eigenpair is that of all coordinates, by inverse iteration.
+        Its eigenpair is that of all coordinates, by inverse iteration. That of divergence has none at 0.
         """
         whole, place = exact_structure(self.rotor), start.places[k]
         model = next(models(self.rotor, usual_frequency(self.rotor, root)))
         value, shape = complex(start.motions.eigenvalues[place]), start.motions.shapes[:, place]
         points: list[tuple[float, float]] = []
         speed = start.motions.speed
-        for _ in range(_SECANTS):
+        for _ in range(_SECANTS if oscillates(np.array(value)) else 0):
             try:
                 at = rest(model.structure, self.bearings, speed)
                 bands = _bands(whole, abs(speed))
