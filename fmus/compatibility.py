@@ -25,11 +25,11 @@ from subprocess import run as run_command
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
-import build
 import fmpy
 import numpy as np
 from numpy.typing import NDArray
 
+import build
 from rotorfilm.core.files import write_atomically
 from rotorfilm.core.signals import to_fmi_name
 from rotorfilm.fmu.export import as_exported

@@ -58,6 +58,7 @@ if TYPE_CHECKING:
         base_system as base_system,
         closed_loop as closed_loop,
         deflected_shape as deflected_shape,
+        harmonic_response as harmonic_response,
         receptance as receptance,
         rotor_system as rotor_system,
         rotor_transmissibility as rotor_transmissibility,
@@ -133,7 +134,12 @@ if TYPE_CHECKING:
         rigid_support_speed as rigid_support_speed,
         shaft_statics as shaft_statics,
     )
-    from .simulate import RingContacts as RingContacts, ring_contacts as ring_contacts, simulate as simulate
+    from .simulate import (
+        RingContacts as RingContacts,
+        ring_contacts as ring_contacts,
+        simulate as simulate,
+        time_response as time_response,
+    )
     from .unbalance_margins import (
         MeshConvergence as MeshConvergence,
         ResonancePeak as ResonancePeak,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -25,7 +25,7 @@ from ..core.port import Bearings, Reaction, freedoms_of, inertial, mass_of, requ
 from ..core.readable import Drawable
 from ..core.results import Coefficients, Equilibrium, InertialCoefficients, added_mass
 from ..core.signals import force_names, indices, names
-from ..rotors import FlexibleRotor, Probe, ShaftRotor, Station, require_flexible, translations
+from ..rotors import FlexibleRotor, Probe, ShaftRotor, Station, node_loads, require_flexible, translations
 from ..rotors.mounted import Mount, join
 from ..rotors.structure import force_rows, freedom_rows, output_rows, station_name, station_names
 from .equilibrium import equilibrium
@@ -277,6 +277,56 @@ def receptance(
     return frequency_response(list(np.moveaxis(values, -1, 0)), grid, inputs, outputs, "receptance")
 
 
+@one_blas_thread
+@arguments
+def harmonic_response(
+    rotor: ShaftRotor,
+    bearings: Bearings,
+    forces: Mapping[int, ArrayLike],
+    frequencies: ArrayLike,
+    speed: float | None = None,
+) -> control.FrequencyResponseData:
+    """Return the response of a rotor in its bearings to harmonic forces at any of its nodes.
+
+    Parameters
+    ----------
+    rotor : ShaftRotor
+    bearings : mapping of str to Reaction
+        By the name of the station; each is linearized at the equilibrium of the speed.
+    forces : mapping of int to array_like of complex, shape (2,) or (2, n) [N]
+        Phasors of the forces along x and y at exp(i frequency t), by node.
+    frequencies : array_like, shape (n,) [rad/s]
+        Of the forces, positive and rising.
+    speed : float [rad/s], optional
+        Of the rotor; by default that of each frequency (synchronous).
+
+    Returns
+    -------
+    control.FrequencyResponseData
+        Input `force` [1]: the forces, 1 as they are. Outputs as in `unbalance_response`.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule, or as `rotor_system`.
+    EquilibriumError
+        If there is no equilibrium at one of the speeds.
+    """
+    grid, loads, rows = checked_speeds(frequencies, "frequencies"), node_loads(rotor, forces), []
+    for node, force in forces.items():
+        pair = np.asarray(force, dtype=complex)
+        if pair.shape not in ((2,), (2, grid.size)) or not np.isfinite(pair).all():
+            raise InputError(
+                f"forces[{node}] must be finite numbers of shape (2,) or {(2, grid.size)}, got {force!r}"
+            )
+        rows.append(np.broadcast_to(pair.reshape(2, -1), (2, grid.size)))
+    phasors = dict(zip(grid.tolist(), np.vstack(rows).T[:, :, None], strict=True))
+    if speed is None:
+        return synchronous_response(rotor, bearings, grid, loads, phasors.__getitem__, "force")
+    at = rotor_equilibrium(rotor, bearings, speed)
+    return _response_about(rotor, at, grid, lambda one: loads @ phasors[one], ["force"])
+
+
 @dataclass(frozen=True, kw_only=True)
 class DeflectedShape(Drawable):
     """The response of a shaft to its unbalance at one speed, along the shaft (operating deflected shape).
@@ -371,15 +421,27 @@ def base_response(
         Inputs and outputs as in `base_system`: phasors at exp(i frequency t) per m/s2. With the
         counters `work` of `unbalance_response`.
     """
-    grid, s = checked_speeds(frequencies, "frequencies"), rotor.structure
-    push = -s.mass @ translations(rotor)
+    push = -rotor.structure.mass @ translations(rotor)
+    return _response_about(rotor, at, checked_speeds(frequencies, "frequencies"), lambda _: push, list(BASE))
+
+
+def _response_about(
+    rotor: FlexibleRotor,
+    at: RotorEquilibrium,
+    grid: Array,
+    push: Callable[[float], np.ndarray],
+    inputs: list[str],
+) -> control.FrequencyResponseData:
+    """Return the response about one equilibrium to loads (N, m) [N] that depend on the frequency."""
     responses, labels = [], names(rotor.outputs)
     work = Counter({"equilibria": 0, "solutions": len(grid), "factorizations": 0})
-    for frequency, near in ((one, rest_near(at, 1j * one)) for one in grid):
+    for frequency in grid.tolist():
+        near = rest_near(at, 1j * frequency)
         sense, labels = response_rows(rotor, near)
-        moved = np.linalg.solve(small_motion(s, near, frequency).dynamic_stiffness(frequency), push)
-        responses.append(sense @ with_rates(moved, frequency))
-    return with_work(frequency_response(responses, grid, list(BASE), labels, "base_response"), work)
+        stiffness = small_motion(rotor.structure, near, frequency).dynamic_stiffness(frequency)
+        responses.append(sense @ with_rates(np.linalg.solve(stiffness, push(frequency)), frequency))
+    name = f"{inputs[0].partition('_')[0]}_response"
+    return with_work(frequency_response(responses, grid, inputs, labels, name), work)
 
 
 @one_blas_thread

@@ -238,7 +238,7 @@ def linear_states(parts: Parts, state: Array, grid: Array) -> Array | None:
     With A V = V Lambda, x(t) = x0 + Re(p exp(i w t)) + Re(V exp(Lambda t) c), x0 at rest, p the response to
     the unbalance. None where speed or bearings change, or the modes do not say the motion to 1e-9.
     """
-    steady = parts.base is None and len(set(parts.profile.speeds)) == 1
+    steady = parts.excited is None and len(set(parts.profile.speeds)) == 1
     if not steady or not all(map(is_constant, parts.bearings)):
         return None
     speed, none = parts.speed, np.zeros(2)
@@ -462,8 +462,8 @@ class March:
         self._numbers = *profile_rows(modal.parts.profile), journal_scales(modal)
         spins = speed is not None and modal.parts.turns and set(modal.parts.profile.speeds) != {speed}
         self._spin = spin_rates(modal) if spins else None
-        base = modal.parts.base
-        self._ground = None if base is None else base.rows
+        excited = modal.parts.excited
+        self._excited = None if excited is None else np.ascontiguousarray(excited)
         slots, steps = constant("RF_SLOTS"), constant("RF_STEPS")
         self._tables = [StepTable.unfilled(self._kept[0], stages, spins=spins) for _ in range(slots + 1)]
         rows = structure("rf_step_table") * (slots + 1)
@@ -473,7 +473,7 @@ class March:
             *(of.struct() for of in self._kept),
             structure("rf_speeds")(times, *(row.ctypes.data for row in self._numbers[:4])),
             spin_struct(speed, self._spin),
-            ground_struct(self._ground),
+            excitation_struct(self._excited),
             self._numbers[4].ctypes.data,
             longest,
             SHORTEST * duration,
@@ -550,10 +550,12 @@ def spin_struct(speed: float | None, rates: tuple[Array, Array] | None) -> Any:
     return structure("rf_spin_rates")(speed or 0.0, *(part.ctypes.data for part in rates or ()))
 
 
-def ground_struct(rows: Array | None) -> Any:
-    """Return times and acceleration of the ground as the C library reads them, while the array lives."""
-    ground = structure("rf_ground")
-    return ground() if rows is None else ground(rows.shape[1], *(row.ctypes.data for row in rows))
+def excitation_struct(rows: Array | None) -> Any:
+    """Return times and excitation as the C library reads them, while the array lives."""
+    made = structure("rf_excitation")
+    if rows is None:
+        return made()
+    return made(rows.shape[1], len(rows) - 1, rows.ctypes.data, rows[1:].ctypes.data)
 
 
 def rate_of(modal: ModalRotor) -> float:
@@ -582,7 +584,7 @@ def stretches(parts: Parts, duration: float, bands: int = BANDS) -> Iterator[tup
     profile = parts.profile
     largest = max(profile.speeds, key=abs)
     width = abs(largest) / bands
-    ground = () if parts.base is None else parts.base.times
+    ground = () if parts.excited is None else parts.excited[0].tolist()
     kinks = sorted({0.0, *(t for t in (*profile.times, *ground) if 0.0 < t < duration), duration})
     for begin, end in pairwise(kinks):
         speed, slope = profile.speed(begin), profile.acceleration(begin)

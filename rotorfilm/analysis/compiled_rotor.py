@@ -43,14 +43,12 @@ from ..native.film_call import MASSLESS, FilmCall
 from ..native.library import loops
 from ..native.structs import structure
 from ..rotors import (
-    BaseExcitedRotor,
-    BaseMotion,
     FlexibleRotor,
     MountedRotor,
     RigidRotor,
     SpeedProfile,
+    TimeExcitedRotor,
     mount,
-    translations,
 )
 from ..rotors.structure import (
     NOMINAL_LENGTH,
@@ -163,10 +161,10 @@ class Parts(NamedTuple):
         Stations of the bearings.
     rows : ndarray, shape (2 n_bearings, N)
         Displacement of their journals.
-    base : BaseMotion or None
-        Of the ground; None where it is still.
-    moved : ndarray, shape (N, 2)
-        Coordinates of a translation of the rotor along x and y, none where the ground is still.
+    excited : ndarray, shape (1 + m, n), or None
+        Times and excitation over them, as acceleration of the ground along x and y; None without.
+    moved : ndarray, shape (N, m)
+        Acceleration of the coordinates per excitation.
     """
 
     structure: Structure
@@ -174,7 +172,7 @@ class Parts(NamedTuple):
     bearings: tuple[Any, ...]
     names: tuple[str, ...]
     rows: Array
-    base: BaseMotion | None = None
+    excited: Array | None = None
     moved: Array = np.zeros((0, 0))
 
     @property
@@ -195,9 +193,9 @@ class Parts(NamedTuple):
 
     @property
     def speed(self) -> float:
-        """The constant speed [rad/s]; raise InputError where it changes, or the ground shakes."""
-        if self.base is not None:
-            raise InputError("ground must be still for a periodic motion, got a BaseExcitedRotor")
+        """The constant speed [rad/s]; raise InputError where it changes, or something excites the rotor."""
+        if self.excited is not None:
+            raise InputError("rotor must not be excited over time for a periodic motion, got one that is")
         speeds = set(self.profile.speeds)
         if len(speeds) != 1:
             raise InputError(f"speed must be constant, got a profile over {self.profile.times!r} s")
@@ -263,7 +261,7 @@ def take_apart(mounted: MountedRotor) -> Parts:
     """
     found = mounted.all_bearings
     bare = mounted.bare
-    structure, profile = _structure(bare.rotor if isinstance(bare, BaseExcitedRotor) else bare)
+    structure, profile = _structure(bare.rotor if isinstance(bare, TimeExcitedRotor) else bare)
     names = [name for name in structure.stations if name in found]
     bearings = [found[name] for name in names]
     if not names:
@@ -279,8 +277,8 @@ def take_apart(mounted: MountedRotor) -> Parts:
     places = [structure.stations.index(name) for name in names]
     rows = np.concatenate([structure.journals[2 * k : 2 * k + 2] for k in places])
     parts = Parts(structure, profile, tuple(bearings), tuple(names), rows)
-    if isinstance(bare, BaseExcitedRotor):
-        return parts._replace(base=bare.base, moved=translations(bare.rotor))
+    if isinstance(bare, TimeExcitedRotor):
+        return parts._replace(excited=bare.rows, moved=bare.columns)
     return parts
 
 
@@ -310,8 +308,8 @@ def state_matrices(parts: Parts, speed: float) -> tuple[Array, Array, Array]:
     model = solved_equations(parts.structure)
     places = [2 * parts.structure.stations.index(name) + axis for name in parts.names for axis in range(2)]
     pushes = [model.push[:, places], model.unbalance]
-    if parts.base is not None:
-        pushes.append(np.vstack([np.zeros_like(parts.moved), -parts.moved]))
+    if parts.excited is not None:
+        pushes.append(np.vstack([np.zeros_like(parts.moved), parts.moved]))
     return (
         model.steady + speed * model.by_speed,
         np.hstack(pushes),
@@ -524,7 +522,7 @@ def _is_compiled(bearing: Any) -> bool:
 def _is_linear(rotor: Dynamic) -> bool:
     """Return whether a rotor, in bearings or not, has the equations of its matrices."""
     bare = rotor.bare if isinstance(rotor, MountedRotor) else rotor
-    bare = bare.rotor if isinstance(bare, BaseExcitedRotor) else bare
+    bare = bare.rotor if isinstance(bare, TimeExcitedRotor) else bare
     base = next((kind for kind in (RigidRotor, FlexibleRotor) if isinstance(bare, kind)), None)
     if isinstance(bare, FlexibleRotor) and bare.assembly.others:
         return False

@@ -44,11 +44,12 @@ from ..core.port import (
 from ..core.readable import Readable
 from ..core.results import Trajectory
 from ..core.signals import FORCE_OUTPUTS, MOTION_NAMES, Signal, force_names, names, units
-from ..rotors import MountedRotor, mount
+from ..rotors import ForcedRotor, MountedRotor, ShaftRotor, mount
 from ..rotors.mounted import Mount, wired
 from ..rotors.structure import prefixed, station_names
 from .compiled_march import require_duration, require_longest_step, sample_times, simulate_rotor
 from .compiled_rotor import CONTACT_GAP, compiled_form, takes_forces
+from .rotor_equilibrium import rotor_equilibrium
 from .stepped_run import simulate_steps
 from .threads import one_blas_thread
 
@@ -154,6 +155,49 @@ def simulate(
     for film in films.values():
         require_turned(film, rotor, whole.signals)
     return whole
+
+
+@arguments
+def time_response(
+    rotor: ShaftRotor,
+    bearings: Mapping[str, Reaction],
+    forces: Mapping[int, ArrayLike],
+    times: ArrayLike,
+    *,
+    rtol: float = 1e-8,
+) -> Trajectory:
+    """Return the motion of a shaft under forces over time at its nodes, from its static equilibrium on.
+
+    Bearings are taken as they are, linear or not; the unbalance and the weight of the shaft act too.
+
+    Parameters
+    ----------
+    rotor : ShaftRotor
+        Its speed may be a profile.
+    bearings : mapping of str to Reaction
+        Bearings by the name of the station.
+    forces : mapping of int to array_like, shape (2, n) [N]
+        Force along x and y by node, linear between the times.
+    times : array_like, shape (n,) [s]
+        Increasing times from 0 on; those of the forces, and of the samples.
+    rtol : float [1]
+        As in `simulate`, whose errors these are.
+
+    Raises
+    ------
+    InputError
+        If the times do not begin at 0, or as `ForcedRotor`.
+    EquilibriumError
+        If there is no equilibrium at the speed at t = 0.
+    """
+    require_kind("rotor", rotor, ShaftRotor, "a ShaftRotor")
+    at = rotor_equilibrium(rotor, bearings, float(rotor.profile.speed(0.0)))
+    started = replace(rotor, initial=(*at.displacement.tolist(), *[0.0] * len(at.displacement)))
+    driven = ForcedRotor(rotor=started, times=times, forces=forces)
+    grid = driven.rows[0]
+    if grid[0] != 0.0:
+        raise InputError(f"times must begin at 0, got {grid[0]:.6g} s")
+    return simulate(driven, bearings, duration=float(grid[-1]), times=grid, rtol=rtol)
 
 
 def _compiled(rotor: Dynamic, film: Any, in_c: Callable[[MountedRotor], Trajectory]) -> Trajectory | None:

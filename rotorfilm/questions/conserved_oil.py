@@ -168,6 +168,8 @@ def supply_of(table: JournalTable, bearing: JournalBearing) -> str | None:
     """Return why the oil of a bearing cannot be conserved, empty if it can; None without an opening."""
     if bearing.geometry.plain:
         return None
+    if table.tilt is not None:
+        return "the journal keeps a tilt"
     try:
         table.conserved(bearing)
     except InputError as error:

@@ -216,7 +216,7 @@ class StaticRung(CandidateRung):
         film, quantity, at = self.film, self.quantity, found.solution
         bound = quantity.bound(film, at)
         if SAFETY * bound < tolerance:
-            return ErrorEstimate(bound, "verified bound of the map", bound=True)
+            return ErrorEstimate(bound, film.bound_name, bound=True)
         moved = film.corrected(at, smooth=quantity.slopes)
         better = quantity.value(
             FilmRest(at=at, film=film, bearing=film.rich, position=moved.position, matrices=lambda: moved)
@@ -351,7 +351,7 @@ class WhirlRung(CandidateRung):
         film = self.film if at.temperature is None else self.film.at_temperature(at.temperature)
         bound = self._bound(film, at)
         if SAFETY * bound < tolerance:
-            return ErrorEstimate(bound, "verified bound of the map", {self.film.tangents: 15}, bound=True)
+            return ErrorEstimate(bound, film.bound_name, {self.film.tangents: 15}, bound=True)
         growth, doubt = film.rich_growth(at, self.mass)
         slope = self.slope(at.speed)
         error = abs(growth / slope) / at.speed if slope else math.inf

@@ -20,6 +20,7 @@ from ..bearings.journal import JFOFilm, JournalBearing
 from ..bearings.pads import PadBearing
 from ..core.answers import HEATED, SAFETY, ErrorEstimate, Ladder, RungResult, WorkUnit
 from ..core.errors import RotorfilmError
+from ..core.port import is_warming
 from ..scenes.film_heat import (
     REFERENCE,
     FieldLevel,
@@ -275,7 +276,7 @@ def heat(scene: Scene, question: Any, films: Sequence[FilmCandidate], ladder: La
         If no film has losses, which heat the oil.
     """
     bearing = films[0].reaction
-    if not bearing.is_warming:
+    if not is_warming(bearing):
         return ladder
     within = HEATED if has_field(question, bearing) else ONE_TEMPERATURE
     if not question.has_levels:

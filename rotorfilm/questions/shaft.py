@@ -130,6 +130,8 @@ class ShaftSpeedRung(shaft_films.ShaftRung):
 
         Instead of asking richer films the verified bound of the map is added where that is enough, or closer.
         """
+        if self.films.tilted:
+            return self._by_tilt(found)
         solution: ShaftSpeed = found.solution
         steps, rates = {WorkUnit(f"steps for {self.name}"): 3}, [self.rate(one) for one in solution.whirls]
         bound = self._bound(solution.whirls[0], rates[0])
@@ -169,6 +171,37 @@ class ShaftSpeedRung(shaft_films.ShaftRung):
             doubt = doubt or "so near to the first of shaft.speeds that it may be below"
         return error, doubt
 
+    def _by_tilt(self, found: RungResult) -> ErrorEstimate:
+        """Return the change in elements half as long, on the next level of the tilts.
+
+        A tilt changes the slope of a growth over the speed too, so the speed is found there, by secants.
+        """
+        whirl: speed_events.Whirl = found.solution.whirls[0]
+        rate, speed, rotor = self.rate(whirl), whirl.at.speed, self.model.finer
+        mesh = self._corrected(whirl, rate, trusted=True)
+        value, shape = whirl.value, self.model.lifted(whirl.right)
+
+        def lead_at(speed: float) -> tuple[float, None]:
+            nonlocal value, shape
+            at = rotor_equilibrium(rotor, self.films.rich, speed)
+            frequency = self.event.frequency(value, speed)
+            value, shape, _ = rotor_matrices.whirl_near(rotor.structure, at, frequency, value, shape)
+            return self.event.lead(value, speed), None
+
+        near = speed_events.secant_speed(
+            lead_at, mesh.speed, rate, near=NEAR_TILT, farthest=FARTHEST, most=RESTS
+        )
+        error, shared = (abs(near.speed - one) / speed for one in (speed, mesh.speed))
+        doubt = mesh.doubt or self._missed(near.speed * (1.0 - 2.0 * error))
+        method = f"secants, {len(rotor.elements)} elements, {self.films.rich_name}"
+        work = {WorkUnit(f"speeds for {self.name}"): 1}
+        return ErrorEstimate(error + mesh.noise, method, work, doubt=doubt, shared=shared)
+
+    @property
+    def shares(self) -> object:
+        """What a level of tilts leaves out, which all models of the shaft have."""
+        return self.films if self.films.tilted else None
+
     def _missed(self, speed: float) -> str:
         """Return why a model of fewer modes than others may have missed one just above a speed [rad/s]."""
         widest = self.model.widest
@@ -181,7 +214,9 @@ class ShaftSpeedRung(shaft_films.ShaftRung):
     def _corrected(self, whirl: speed_events.Whirl, rate: float, *, trusted: bool) -> CorrectedSpeed:
         """Return a critical speed after steps of inverse iteration with the shift that this rung gives."""
         found = (
-            (whirl.at.coefficients, "") if trusted else shaft_films.rich_coefficients(self.films, whirl.at)
+            (whirl.at.coefficients, "")
+            if trusted
+            else shaft_films.rich_coefficients(self.films, whirl.at, self.model.rotor)
         )
         return self._stepped(whirl, rate, *found)
 
@@ -234,6 +269,8 @@ class ShaftSpeedRung(shaft_films.ShaftRung):
         scale = whirl.left.conj() @ slope @ whirl.right
         total = 0.0
         for name, bound in shaft_films.coefficient_bounds(self.films, whirl.at).items():
+            if not math.isfinite(bound):
+                return bound
             rows, film = rotor_matrices.journal_rows(structure, name), whirl.at.coefficients[name]
             # what an entry of K, and of C, of this size does to the eigenvalue
             by_stiffness = np.outer((rows @ whirl.left).conj(), rows @ whirl.right) / scale
@@ -292,6 +329,9 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
 
 RESTS, NEAR, FARTHEST = 12, 3e-5, 0.1
 """Most speeds that a search takes, the relative change at which it ends, and the largest one of a step."""
+
+NEAR_TILT = 3e-4
+"""The change at which it ends on films over the whole length, whose slopes jump from cell to cell."""
 
 
 def field_speed(level: FieldLevel, rung: ShaftSpeedRung) -> FunctionRung:

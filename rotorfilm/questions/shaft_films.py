@@ -6,12 +6,12 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..analysis import RotorEquilibrium, equilibrium
-from ..bearings.journal import JournalBearing
+from ..analysis import RotorEquilibrium, equilibrium, rotor_equilibrium
+from ..bearings.journal import JournalBearing, TiltLevel
 from ..core.answers import (
     HEATED,
     SAFETY,
@@ -23,24 +23,23 @@ from ..core.answers import (
     WorkUnit,
     relative_change,
 )
-from ..core.errors import InputError
 from ..core.port import Reaction
 from ..core.results import Coefficients
-from ..rotors import ShaftRotor
+from ..rotors import FlexibleRotor, ShaftRotor
 from ..rotors.shaft_rotor import ShaftModel
 from ..scenes import film_heat
-from ..scenes.film_rungs import FilmRung, corrected, turn_films
+from ..scenes.film_rungs import FilmCandidate, FilmRung, corrected, turn_films
 from ..scenes.journal_tables import has_map
 from ..scenes.shared_tables import oil_remarks
 from ..scenes.solve_shaft import shaft_physics, shaft_remarks
+from ..scenes.tilted_films import TiltLevelFilm, tilted_films
 from .heat_levels import BALANCE, BALANCED, FRESH, HeatLevel, balance_at, known_films, with_heat, with_moving
 from .turbulent_oil import turbulent_shaft
 from .variants import FunctionRung, counted_rung, with_estimate
 
 if TYPE_CHECKING:
-    from ..scenes.journal_tables import JournalTable
     from ..scenes.scene import Scene
-    from ..scenes.shaft_table import ShaftTable
+    from ..scenes.shaft_table import BearingTable, ShaftTable
 
 REST_BOUNDS = ((0.5, 2e-5), (0.95, 5e-5))
 """Eccentricity ratio up to which, and largest error of K, C of the packaged map at rest."""
@@ -56,12 +55,12 @@ class ShaftFilms:
     Attributes
     ----------
     journals : dict of str to FilmRung
-        Journals by station.
+        Journals by station; those that feel their tilt are a `TiltLevelFilm` each.
     springs : dict of str to Reaction
         Bearings without a film, by station.
     """
 
-    journals: Mapping[str, FilmRung]
+    journals: Mapping[str, Any]
     springs: Mapping[str, Reaction]
 
     @property
@@ -97,7 +96,12 @@ class ShaftFilms:
     @property
     def on_oil(self) -> tuple[str, ...]:
         """Stations whose films are of an oil, with a temperature."""
-        return tuple(name for name, film in self.journals.items() if film.reaction.oil is not None)
+        return tuple(name for name, film in self.journals.items() if getattr(film.reaction, "oil", None))
+
+    @property
+    def tilted(self) -> bool:
+        """Whether a film feels the tilt of its journal."""
+        return any(isinstance(film, TiltLevelFilm) for film in self.journals.values())
 
     def changed(self, films: Mapping[str, FilmRung]) -> ShaftFilms:
         """Return films of which some, by station, are others."""
@@ -114,14 +118,8 @@ class ShaftFilms:
 
 def film_levels(shaft: ShaftTable) -> tuple[ShaftFilms, ...]:
     """Return what may stand in the journals of a shaft, the cheapest first; one level if all is settled."""
-    tilted = [one.name for one in shaft.bearings if one.tilt is not None]
-    if tilted:
-        raise InputError(
-            f"tilt of shaft.bearings must be left out for a question, got it of {', '.join(tilted)}: a scene "
-            "that asks none has modes, thresholds and responses with it"
-        )
     springs = {one.name: one.build() for one in shaft.bearings if one.journal is None}
-    choices = {one.name: _choices(one.journal) for one in shaft.bearings if one.journal is not None}
+    choices = {one.name: _choices(one) for one in shaft.bearings if one.journal is not None}
     count = max((len(each) for each in choices.values()), default=1)
     return tuple(
         ShaftFilms(
@@ -132,14 +130,26 @@ def film_levels(shaft: ShaftTable) -> tuple[ShaftFilms, ...]:
     )
 
 
-def _choices(journal: JournalTable) -> tuple[FilmRung, ...]:
+def _choices(table: BearingTable) -> tuple[FilmCandidate, ...]:
+    journal = table.journal
+    assert journal is not None  # or there are no films to choose
     bearing = journal.bearing()
+    if table.tilt is not None:
+        levels = {table.tilt} if isinstance(table.tilt, TiltLevel) else {*TiltLevel}
+        return tilted_films(bearing, fixed=journal.film_is_given, levels=levels, made=table.misaligned)
     films = turn_films(bearing, fixed=journal.film is not None, grids=GRIDS, maps=False)
     return known_films(films) if bearing.is_warming else films
 
 
-def rich_coefficients(films: ShaftFilms, at: RotorEquilibrium) -> tuple[dict[str, Coefficients], str]:
-    """Return K and C of all bearings by the richer films at their own equilibria, and why to doubt them."""
+def rich_coefficients(
+    films: ShaftFilms, at: RotorEquilibrium, rotor: FlexibleRotor
+) -> tuple[dict[str, Coefficients], str]:
+    """Return K and C of all bearings by the richer films at their own equilibria, and why to doubt them.
+
+    With tilts that is the equilibrium of the rotor, which sags otherwise under their moments.
+    """
+    if films.tilted:
+        return rotor_equilibrium(rotor, films.rich, at.speed).coefficients, ""
     found, doubt = dict(at.coefficients), ""
     for name, film in films.journals.items():
         load = at.loads[name]
@@ -159,7 +169,9 @@ def rich_coefficients(films: ShaftFilms, at: RotorEquilibrium) -> tuple[dict[str
 def coefficient_bounds(films: ShaftFilms, at: RotorEquilibrium) -> dict[str, float]:
     """Return the verified relative error of K and C of each film at rest; infinite where there is none."""
     return {
-        name: _rest_bound(film, float(np.hypot(*at.coefficients[name].position)) / film.reaction.clearance)
+        name: _rest_bound(
+            film, float(np.hypot(*at.coefficients[name].position[:2])) / film.reaction.clearance
+        )
         for name, film in films.journals.items()
     }
 

@@ -211,6 +211,7 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
     """
     place, shaft = orbit_place(scene, quantity), scene.shaft
     shaft.require_lateral(quantity)
+    shaft.require_aligned(quantity)
     rotor, levels = shaft.build(speed=scene.speed, extra=_extra(scene)), shaft_films.film_levels(shaft)
     models, films = shaft_models(rotor), levels[0]
     choices = _choices(models, nonlinear=bool(films.journals))
@@ -415,6 +416,7 @@ def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     """
     given = scene.required("shaft", quantity)
     given.require_lateral(quantity)
+    given.require_aligned(quantity)
     require_kind(scene.excitation, ("unbalance", "blade_loss", "run_up", "ground"))
     scene = after_loss(scene)
     excitation = scene.excitation

@@ -5,7 +5,14 @@ from typing import TYPE_CHECKING
 from ..core.sources import show
 
 if TYPE_CHECKING:
-    from .base_excitation import BaseExcitedRotor as BaseExcitedRotor, BaseMotion as BaseMotion, translations
+    from .base_excitation import (
+        BaseExcitedRotor as BaseExcitedRotor,
+        BaseMotion as BaseMotion,
+        ForcedRotor as ForcedRotor,
+        TimeExcitedRotor,
+        node_loads,
+        translations,
+    )
     from .cracked_rotor import (
         Breathing,
         CrackedRotor as CrackedRotor,

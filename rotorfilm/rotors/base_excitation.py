@@ -1,7 +1,8 @@
-"""The ground that shakes: its acceleration over time, and a rotor on it."""
+"""Excitation over time: a rotor on ground that shakes, and forces at nodes of a shaft."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -15,6 +16,7 @@ from ..core.limits import STEPS
 from ..core.model import Array, Linearization, breakpoints
 from .reduced_rotor import ReducedRotor
 from .rigid import RigidRotor
+from .shaft_rotor import ShaftRotor
 from .structure import AroundRotor, FlexibleRotor, dense_matrix
 
 PER_PERIOD = 20
@@ -39,6 +41,14 @@ def _cosines(phasors: np.ndarray, first: float, step: float, times: Array) -> Ar
 
     turned = czt(phasors, len(times), np.exp(1j * step * times[1]))
     return np.asarray((np.exp(1j * first * times) * turned).real)
+
+
+def _sampled(rows: Array, t: float) -> Array:
+    """Return rows over the times of the first one at a time t, linear between samples, 0 before and after."""
+    times = rows[0]
+    if not times[0] <= t < times[-1]:
+        return np.zeros(len(rows) - 1)
+    return np.array([np.interp(t, times, row) for row in rows[1:]])
 
 
 @quantities
@@ -139,10 +149,7 @@ class BaseMotion:
 
     def acceleration(self, t: float) -> Array:
         """Return the acceleration at the time t [s], shape (2,) [m/s2]; at a jump the value after it."""
-        if not self.times[0] <= t < self.times[-1]:
-            return np.zeros(2)
-        times, x, y = self.rows
-        return np.array([np.interp(t, times, x), np.interp(t, times, y)])
+        return _sampled(self.rows, t)
 
     @property
     def breakpoints(self) -> tuple[float, ...]:
@@ -157,9 +164,50 @@ class BaseMotion:
         return np.array([self.times, *(row if row else still for row in given)])
 
 
+class TimeExcitedRotor(AroundRotor):
+    """What rotors have in common that something excites over time: q'' = ... + columns a(t).
+
+    Attributes
+    ----------
+    rotor : RigidRotor or FlexibleRotor
+    columns : ndarray, shape (N, m)
+        Acceleration of the coordinates of the rotor per excitation.
+    rows : ndarray, shape (1 + m, n)
+        Times [s], and each excitation at these times: linear between them, 0 before and after.
+    """
+
+    rotor: RigidRotor | FlexibleRotor
+    columns: Array
+    rows: Array
+
+    @property
+    def stations(self) -> tuple[str, ...]:  # type: ignore[override]
+        """The stations of the rotor."""
+        return self.rotor.structure.stations
+
+    @cached_property
+    def breakpoints(self) -> tuple[float, ...]:
+        """Times [s] at which speed or excitation have kinks."""
+        return tuple(sorted({*breakpoints(self.rotor), *self.rows[0].tolist()}))
+
+    def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return dx/dt at the time t [s] for the forces u [N] at the stations."""
+        rate = np.array(self.rotor.derivative(t, x, u))
+        rate[len(rate) // 2 :] += self.columns @ _sampled(self.rows, t)
+        return rate
+
+    def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return the outputs of the rotor; on ground that shakes they are relative to it."""
+        return self.rotor.output(t, x, u)
+
+    def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
+        """Return the derivatives of the rotor, which the excitation does not change."""
+        return self.rotor.linearization(t, x, u)
+
+
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class BaseExcitedRotor(AroundRotor):
+class BaseExcitedRotor(TimeExcitedRotor):
     """A rotor with base excitation: all housings move with the ground, and motion is relative to the ground.
 
     In this moving frame each mass has the inertia force -mass acceleration. So the equations of the rotor are
@@ -181,32 +229,68 @@ class BaseExcitedRotor(AroundRotor):
         require_kind("base", self.base, BaseMotion, "a BaseMotion")
 
     @property
-    def stations(self) -> tuple[str, ...]:  # type: ignore[override]
-        """The stations of the rotor."""
-        return self.rotor.structure.stations
+    def rows(self) -> Array:  # type: ignore[override]
+        """Times and acceleration of the ground."""
+        return self.base.rows
 
     @cached_property
-    def breakpoints(self) -> tuple[float, ...]:
-        """Times [s] at which speed or ground have kinks."""
-        return tuple(sorted({*breakpoints(self.rotor), *self.base.breakpoints}))
+    def columns(self) -> Array:  # type: ignore[override]
+        """The opposite of a translation of the rotor along x, and along y."""
+        return -translations(self.rotor)
 
-    def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return dx/dt at the time t [s] for the forces u [N] at the stations."""
-        rate = np.array(self.rotor.derivative(t, x, u))
-        rate[len(rate) // 2 :] -= self._translations @ self.base.acceleration(t)
-        return rate
 
-    def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return the outputs of the rotor, relative to the ground."""
-        return self.rotor.output(t, x, u)
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class ForcedRotor(TimeExcitedRotor):
+    """A shaft under forces over time at some of its nodes, for runs on bearings of any kind.
 
-    def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
-        """Return the derivatives of the rotor, which the ground does not change."""
-        return self.rotor.linearization(t, x, u)
+    `simulate` integrates it as fast as the shaft without them, and `time_response` is the whole call.
+
+    Parameters
+    ----------
+    rotor : ShaftRotor
+    times : array_like, shape (n,) [s]
+        Strictly increasing times, at least two.
+    forces : mapping of int to array_like, shape (2, n) [N]
+        Force along x and y by node, at these times: linear between them, 0 before and after.
+
+    Raises
+    ------
+    InputError
+        If the rotor is no ShaftRotor, a node is not among its own, or a shape is not that of the times.
+    """
+
+    rotor: ShaftRotor
+    times: ArrayLike
+    forces: Mapping[int, ArrayLike]
+
+    def __post_init__(self) -> None:
+        node_loads(self.rotor, self.forces)
+        times, rows = _rising(self.times), []
+        for node, force in self.forces.items():
+            rows.append(require_finite(f"forces[{node}]", force))
+            if rows[-1].shape != (2, times.size):
+                raise InputError(f"forces[{node}] must have shape {(2, times.size)}, got {rows[-1].shape}")
+        object.__setattr__(self, "rows", np.vstack([times, *rows]))
 
     @cached_property
-    def _translations(self) -> Array:
-        return translations(self.rotor)
+    def columns(self) -> Array:  # type: ignore[override]
+        """Acceleration of the coordinates per force on each node, along x and y in turn."""
+        loads = node_loads(self.rotor, self.forces)
+        return np.asarray(np.linalg.solve(dense_matrix(self.rotor.structure.mass), loads))
+
+
+def node_loads(rotor: ShaftRotor, nodes: Mapping[int, Any]) -> Array:
+    """Return unit forces along x and y at nodes in turn, shape (N, 2 m); InputError for an unknown node."""
+    require_kind("rotor", rotor, ShaftRotor, "a ShaftRotor")
+    require_kind("forces", nodes, Mapping, "a mapping of nodes to forces")
+    s, n = rotor.assembly, len(rotor.assembly.coordinates)
+    loads, last = np.zeros((len(s.weight), 2 * len(nodes))), len(rotor.positions) - 1
+    if not nodes or any(node not in range(last + 1) for node in nodes):
+        raise InputError(f"forces must be at nodes from 0 to {last}, got {list(nodes)}")
+    for k, node in enumerate(nodes):
+        loads[[2 * node, n + 2 * node], [2 * k, 2 * k + 1]] = 1.0
+    return loads
 
 
 def translations(rotor: RigidRotor | FlexibleRotor) -> Array:

@@ -498,6 +498,7 @@ KINDS = (
     "reynolds_journal",
     "pressure_dam",
     "lobed_journal",
+    "turbulent_journal",
 )
 """Kernels that may be a bearing of a system, in the order of `native/systems/mounted_tables.c`."""
 

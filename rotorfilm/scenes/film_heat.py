@@ -140,7 +140,7 @@ def warm_field(
 ) -> journal.HeatedFilm | journal.HeatedJFOFilm:
     """Return a film with a temperature field; one that conserves its oil where openings end within it."""
     if ends_within(bearing):
-        bearing = journal.JFOFilm(bearing=bearing)  # type: ignore[arg-type]  # no JFOFilm
+        bearing = journal.JFOFilm(bearing=bearing)
     if isinstance(bearing, journal.JFOFilm):
         film = replace(bearing, cells=cells)
         return journal.HeatedJFOFilm(film=film, walls=bush_of(film.bearing), profile=profile)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -273,6 +273,9 @@ class FilmCandidate:
     bounded: bool = False
     making: float = 0.0
     call_time: float = CALL_TIME
+
+    bound_name: ClassVar[str] = "verified bound of the map"
+    """How `rest_bound` is known."""
 
     @property
     def makes_map(self) -> bool:

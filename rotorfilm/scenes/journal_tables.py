@@ -14,14 +14,36 @@ from ..bearings.films import geometry
 from ..bearings.films.law import FilmLaw
 from ..bearings.films.mass_conserving import require_conserved_cells
 from ..bearings.films.turbulence import Turbulence
-from ..bearings.journal import JFOFilm, JournalBearing, MapFilm, ReynoldsFilm, ShortFilm
+from ..bearings.journal import (
+    ExtrapolatedFilm,
+    HeldTilt,
+    JFOFilm,
+    JournalBearing,
+    MapFilm,
+    MomentCarryingJournal,
+    ReynoldsFilm,
+    ShortFilm,
+    TiltLevel,
+)
 from ..bearings.oil.oil import TAYLOR, TURBULENT, compression, film_reynolds
 from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarning, brief
 from ..core.limits import FUNCTIONS, MAP_NODES
 from ..core.progress import Report
 from ..core.readable import Readable
 from .families import isothermal, messages, remarks_of
-from .reading import COUNTS, Count, Keyed, Variant, counts, fields_of, keys_of, made_from, takes
+from .reading import (
+    COUNTS,
+    Count,
+    Keyed,
+    Quantity,
+    Several,
+    Variant,
+    counts,
+    fields_of,
+    keys_of,
+    made_from,
+    takes,
+)
 from .shared_tables import Lubricant, OiledTable
 from .turbulent import AUTO, effect_of, read_turbulence, turbulent_remarks
 
@@ -100,8 +122,11 @@ FILMS: dict[str, Callable[[], Keyed[FilmLaw | ConservedOil]]] = {
 """`film = {name = "map"}`: film laws by their names in scene files and at the command line."""
 
 
+ANGLES = Several(Quantity("rad"), 2, 2, "two angles, about x and about y")
+
+
 @dataclass(frozen=True, kw_only=True)
-@fields_of(JournalBearing, JFOFilm, without=("bearing", "cells"))
+@fields_of(JournalBearing, JFOFilm, without=("bearing", "cells", "mobility"))
 class JournalTable(OiledTable):
     """`[journal]`: a cylindrical journal bearing, full unless it has pads or grooves.
 
@@ -124,6 +149,9 @@ class JournalTable(OiledTable):
     turbulence : Turbulence or str
         "auto": laminar below the onset and turbulent above it, where no film is named or it is one on a grid;
         "none", the name of a closure, or a table of `Turbulence`.
+    tilt : (float, float) or None [rad]
+        Rotation of the journal about x and y, which it keeps; then the least film is that over the whole
+        length. Of a laminar film, a map or one on a grid, at a viscosity.
     """
 
     film: Annotated[FilmLaw | ConservedOil | None, Variant("name", FILMS)] = None
@@ -131,8 +159,14 @@ class JournalTable(OiledTable):
     grooves: tuple[geometry.Groove, ...] = ()
     feed_holes: tuple[geometry.FeedHole, ...] = ()
     turbulence: Annotated[Turbulence | str, read_turbulence] = AUTO
+    tilt: Annotated[tuple[float, float] | None, ANGLES] = None
 
     def __post_init__(self) -> None:
+        if self.tilt is not None and (self.conserves or isinstance(self.turbulence, Turbulence)):
+            raise InputError(
+                "tilt must be left out of a journal whose film conserves its oil or is turbulent, "
+                f"got {self.tilt!r} rad"
+            )
         # Without a viscosity there is no bearing before `on` has given the oil.
         if self.has_lubricant:
             self.build()
@@ -180,21 +214,33 @@ class JournalTable(OiledTable):
         own = self.film if isinstance(self.film, ConservedOil) else ConservedOil()
         return made_from(JFOFilm, self, bearing=bearing, cells=cells or own.cells)
 
-    def build(self) -> JournalBearing | JFOFilm:
-        """Return the bearing, or its film that conserves the oil; InputError for a bad value."""
+    def build(self) -> JournalBearing | JFOFilm | HeldTilt:
+        """Return the bearing, its film that conserves the oil, or its tilted journal; InputError if bad."""
         bearing = self.bearing()
+        if self.tilt is not None:
+            return HeldTilt(journal=feeling_tilt(bearing, named=self.film is not None), tilt=self.tilt)
         return self.conserved(bearing) if self.conserves else bearing
 
-    def repeated_inputs(self, bearing: JournalBearing | JFOFilm) -> tuple[BearingData, str]:
+    def repeated_inputs(self, bearing: JournalBearing | JFOFilm | HeldTilt) -> tuple[BearingData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
+        if isinstance(bearing, HeldTilt):
+            inner = bearing.journal.bearing
+            name = journal.film_name(inner.fitted_film)
+            return bearing_data(inner), f"{name}, tilt at level {bearing.journal.level.value}"
         if isinstance(bearing, JFOFilm):
             return bearing_data(bearing.bearing), f"JFOFilm(cells={bearing.cells})"
         return bearing_data(bearing), journal.film_name(bearing.fitted_film)
 
     def remarks(
-        self, bearing: JournalBearing | JFOFilm, oil: Lubricant, speed: float, load: tuple[float, float]
+        self,
+        bearing: JournalBearing | JFOFilm | HeldTilt,
+        oil: Lubricant,
+        speed: float,
+        load: tuple[float, float],
     ) -> tuple[str, ...]:
         """Return what its physics leaves out and should not; see `film_remarks`."""
+        if isinstance(bearing, HeldTilt):
+            return film_remarks(bearing.journal.bearing, oil, speed, load)
         own = film_remarks(bearing, oil, speed, load)
         return own if isinstance(bearing, JFOFilm) else (*turbulent_remarks(bearing, speed, load), *own)
 
@@ -203,10 +249,22 @@ class JournalTable(OiledTable):
         if not (self.grooves or self.pads):
             return
         bearing = self.build()
-        if isinstance(bearing, JFOFilm):
+        if not isinstance(bearing, JournalBearing):
             return
         if isinstance(bearing.fitted_film, journal.GroovedMapFilm):
             journal.build_groove_map(bearing, report)
+
+
+def feeling_tilt(bearing: JournalBearing, *, named: bool) -> MomentCarryingJournal:
+    """Return a bearing at the closest level of tilt that its film has.
+
+    A film that is not `named` is on a grid over the whole length.
+    """
+    if not named:
+        bearing = replace(bearing, film=ExtrapolatedFilm(film=ReynoldsFilm()))
+    grid = isinstance(bearing.film, ExtrapolatedFilm | ReynoldsFilm)
+    level = TiltLevel.FULL if grid else TiltLevel.SECOND_ORDER
+    return MomentCarryingJournal(bearing=bearing, level=level)
 
 
 # Which journals the map that comes with the package holds.
@@ -367,15 +425,14 @@ def film_remarks(
     Of a bearing whose oil warms it is said of the film at its temperature, and heat is not left out.
     """
     remarks = remarks_of("hot", "journal")
-    film: Any = None
-    if isinstance(bearing, JFOFilm):
-        film, bearing = replace(bearing, cells=CONSERVED), bearing.bearing
-    if bearing.is_warming:
+    film: Any = replace(bearing, cells=CONSERVED) if isinstance(bearing, JFOFilm) else None
+    own: Any = bearing if film is None else film.bearing
+    if own.is_warming:
         remarks = isothermal(remarks)
-        warm: JournalBearing = warmed(bearing, film or _quick(bearing), speed, load)
-        bearing, film = warm, film and film.at_temperature(warm.temperature)
-    numbers = journal_numbers(bearing, oil, speed, load, film)
-    if bearing.turbulence is not None:
+        own = warmed(own, film or _quick(own), speed, load)
+        film = film and film.at_temperature(own.temperature)
+    numbers = journal_numbers(own, oil, speed, load, film)
+    if own.turbulence is not None:
         numbers["turbulence"] = 0.0
     return messages(remarks, numbers)
 

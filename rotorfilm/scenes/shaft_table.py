@@ -22,7 +22,7 @@ from ..core.limits import SHAFT_ELEMENTS, SPEEDS, require_at_most
 from ..core.model import Array
 from ..core.port import Reaction
 from . import reading
-from .journal_tables import JournalTable
+from .journal_tables import ANGLES, JournalTable, feeling_tilt
 from .shared_tables import LubricantTable, UnbalanceTable
 from .thrust import ThrustTable
 
@@ -140,10 +140,14 @@ class DiskTable(reading.Taking):
         return replace(solid, skew=self.skew, skew_angle=self.skew_angle)
 
 
-TILTS = {level.value.replace(" ", "_"): partial(TiltLevel, level.value) for level in TiltLevel}
-"""Levels of a tilted journal by their names in scene files."""
+AUTO = "auto"
+"""The level of a tilted journal that a question needs, else the closest."""
 
-ANGLES = reading.Several(reading.Quantity("rad"), 2, 2, "two angles, about x and about y")
+TILTS: dict[str, Any] = {
+    **{level.value.replace(" ", "_"): partial(TiltLevel, level.value) for level in TiltLevel},
+    AUTO: partial(str, AUTO),
+}
+"""Levels of a tilted journal by their names in scene files."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -168,9 +172,9 @@ class BearingTable:
         A thrust bearing with its axial load, of a viscosity; with it the shaft also moves along its axis.
     support : Support or None
         Its housing; rigid unless given.
-    tilt : TiltLevel or None
+    tilt : TiltLevel, str or None
         How a journal bearing feels the tilt of the shaft, as `full` with the film over the whole length, or
-        `second_order`; not at all unless given.
+        `second_order`; not at all unless given. "auto" is the level that a question needs, else the closest.
     bush_offset : (float, float) [m]
         Place of the bush of a journal bearing with a tilt, beside the line of the shaft.
     bush_tilt : (float, float) [rad]
@@ -185,13 +189,18 @@ class BearingTable:
     seal: Annotated[AnnularSeal | None, reading.Table(SEAL)] = None
     thrust: ThrustTable | None = None
     support: rotors.Support | None = None
-    tilt: Annotated[TiltLevel | None, reading.named(TILTS)] = None
+    tilt: Annotated[TiltLevel | str | None, reading.named(TILTS)] = None
     bush_offset: Annotated[tuple[float, float], reading.Several(reading.Quantity("m"), 2, 2)] = (0.0, 0.0)
     bush_tilt: Annotated[tuple[float, float], ANGLES] = (0.0, 0.0)
 
     def __post_init__(self) -> None:
         if self.tilt is not None and self.journal is None:
             raise InputError(f"tilt must be left out without a journal, got {self.tilt}")
+        if self.journal is not None and self.journal.tilt is not None:
+            raise InputError(
+                "journal.tilt must be left out under a shaft, whose equilibrium tilts its journals, "
+                f"got {self.journal.tilt!r} rad"
+            )
         if self.tilt is None and (any(self.bush_offset) or any(self.bush_tilt)):
             raise InputError(
                 "tilt must be given for a bush_offset or a bush_tilt, "
@@ -227,11 +236,16 @@ class BearingTable:
         """Return a journal bearing that feels the tilt, if it does; the full level needs a film on a grid."""
         if self.tilt is None:
             return bearing
+        if not isinstance(self.tilt, TiltLevel):
+            assert self.journal is not None  # checked in __post_init__
+            return self.misaligned(feeling_tilt(bearing, named=self.journal.film_is_given))
         if self.tilt is TiltLevel.FULL and isinstance(bearing.film, MapFilm):
             bearing = replace(bearing, film=ReynoldsFilm())
-        return MomentCarryingJournal(
-            bearing=bearing, level=self.tilt, bush_offset=self.bush_offset, bush_tilt=self.bush_tilt
-        )
+        return self.misaligned(MomentCarryingJournal(bearing=bearing, level=self.tilt))
+
+    def misaligned(self, journal: MomentCarryingJournal) -> MomentCarryingJournal:
+        """Return a journal bearing with its bush where this table has it."""
+        return replace(journal, bush_offset=self.bush_offset, bush_tilt=self.bush_tilt)
 
     def station(self) -> rotors.Station:
         """Return where it is."""
@@ -484,6 +498,15 @@ class ShaftTable(reading.Taking):
         """Return the names of what a question may be about: bearings, and probes unless it is for forces."""
         probes = () if forces else tuple(probe.name for probe in self.probes)
         return (*(bearing.name for bearing in self.bearings), *probes)
+
+    def require_aligned(self, what: str) -> None:
+        """Raise InputError, naming what it is for, where a bearing feels the tilt of the shaft."""
+        tilted = [bearing.name for bearing in self.bearings if bearing.tilt is not None]
+        if tilted:
+            raise InputError(
+                f"tilt of shaft.bearings must be left out for {what}, got it of {', '.join(tilted)}: `run` "
+                "follows the orbit with it"
+            )
 
     def require_lateral(self, what: str) -> None:
         """Raise InputError, naming what it is for, where the shaft also moves along its axis."""

@@ -96,7 +96,7 @@ def on_oil(effect: Turbulence, bearing: Any, scene: Any) -> Turbulence:
 def is_left_laminar(table: Any, scene: Any) -> bool:
     """Return whether the film of a table is laminar above its onset, as it is named or asked to be."""
     choice = getattr(table, "turbulence", None)
-    if choice is None or (choice == AUTO and _takes(table)):
+    if choice is None or _is_tilted(table) or (choice == AUTO and _takes(table)):
         return False
     return effect_of(table) is None and is_above(table.build(), scene)
 
@@ -110,7 +110,14 @@ def is_above(bearing: Any, scene: Any) -> bool:
     return is_turbulent_at(warm, density, speed)
 
 
+def _is_tilted(table: Any) -> bool:
+    """Return whether the journal of a table keeps a tilt: its film is laminar."""
+    return getattr(table, "tilt", None) is not None
+
+
 def _takes(table: Any) -> bool:
+    if _is_tilted(table):
+        return False
     film = getattr(table, "film", None)
     if film is None or isinstance(film, ReynoldsFilm):
         return not getattr(table, "conserves", False)

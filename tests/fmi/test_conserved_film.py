@@ -19,14 +19,18 @@ from rotorfilm import (
     JFODamper,
     JFOFilm,
     JournalBearing,
+    PressureDamBearing,
     export_fmu,
+    pressure_dam_pads,
 )
+from rotorfilm.bearings import Turbulence
 from rotorfilm.cosim import open_fmu
 from rotorfilm.fmu import check_fmu
 
 OMEGA, STEP = 314.0, 1e-4
 TOP = Groove(center=np.pi / 2, width=np.radians(20.0), length=0.04)
 SIZE = dict(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02)
+PADS = dict(radius=0.05, length=0.05, pad_clearance=1e-4, viscosity=1e-3)
 FILM = JFOFilm(bearing=JournalBearing(**SIZE, grooves=(TOP,), supply_pressure=2e5), cells=(24, 4))
 FILMS = {
     "pressed": FILM,
@@ -36,6 +40,14 @@ FILMS = {
     ),
     "all round": JFOFilm(
         bearing=JournalBearing(**SIZE, circumferential_groove=2e-3, supply_pressure=1e5), cells=(24, 4)
+    ),
+    "turbulent dam": JFOFilm(
+        bearing=PressureDamBearing(
+            **PADS,
+            turbulence=Turbulence(),
+            pads=pressure_dam_pads(depth=1e-4, end=2.4, share=0.75, preload=0.2),
+        ),
+        cells=(24, 4),
     ),
     "damper": JFODamper(
         **SIZE,
@@ -149,6 +161,7 @@ def stepped(fmu, k):
 RUN = """
 import os, signal, sys
 import numpy as np
+from rotorfilm.bearings import Turbulence
 from rotorfilm.cosim import open_fmu
 sys.path.insert(0, sys.argv[1])
 from {module} import motion, stepped

@@ -184,6 +184,7 @@ MADE = [
     ),
     rf.BaseMotion(times=(0.0, 1.0), acceleration_x=(1.0, -1.0), acceleration_y=(0.5, 2.0)),
     rf.BaseExcitedRotor(rotor=rf.RigidRotor(mass=10.0, speed=100.0), base=rf.BaseMotion(times=(0.0, 1.0))),
+    rf.rotors.ForcedRotor(rotor=SHAFT, times=(0.0, 1.0), forces={0: ((1.0, 2.0), (0.0, 3.0))}),
     STEEL,
     PIECE,
     rf.Coupling(stiffness=1e6, tilt_stiffness=1e3),
@@ -233,6 +234,10 @@ MADE = [
         bearing=dataclasses.replace(BEARING, film=rf.ReynoldsFilm(cells=(16, 4)))
     ),
     rf.bearings.MomentCarryingJournal(bearing=BEARING, level=rf.bearings.TiltLevel.CLOSED_FORM),
+    rf.bearings.HeldTilt(
+        journal=rf.bearings.MomentCarryingJournal(bearing=BEARING, level=rf.bearings.TiltLevel.CLOSED_FORM),
+        tilt=(1e-4, 2e-4),
+    ),
     rf.ThrustBearing(
         inner_radius=0.025,
         outer_radius=0.05,

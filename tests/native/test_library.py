@@ -19,11 +19,11 @@ LARGEST = {
     "rotorfilm_states": 108_000,
     "rotorfilm_systems": 93_000,
     "rotorfilm_bushes": 60_000,
-    "rotorfilm_grids": 155_000,
+    "rotorfilm_grids": 162_000,
     "rotorfilm_grid_systems": 144_000,
     "rotorfilm_heat": 110_000,
     "rotorfilm_pads": 76_000,
-    "rotorfilm_oil": 112_000,
+    "rotorfilm_oil": 116_000,
     "rotorfilm_loops": 385_000,
     "rotorfilm_master": 362_000,
 }

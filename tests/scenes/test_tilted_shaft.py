@@ -6,11 +6,9 @@ import numpy as np
 import pytest
 
 import rotorfilm as rf
-from rotorfilm import InputError
 from rotorfilm.bearings import MomentCarryingJournal
 from rotorfilm.bearings.journal import TiltLevel
 from rotorfilm.core.errors import SceneError
-from rotorfilm.questions.shaft_films import film_levels
 from rotorfilm.scenes.rotor_runs import run_rotor
 from rotorfilm.scenes.solve_shaft import shaft_remarks, solve_rotor
 
@@ -108,9 +106,3 @@ def test_springs_have_no_tilt(tmp_path):
     )
     with pytest.raises(SceneError, match="tilt must be left out without a journal"):
         scene(tmp_path, text=text)
-
-
-def test_questions_refuse_a_tilt(tmp_path):
-    given = scene(tmp_path, both='tilt = "closed_form"\n')
-    with pytest.raises(InputError, match=r"tilt of shaft.bearings must be left out"):
-        film_levels(given.shaft)

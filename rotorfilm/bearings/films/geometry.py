@@ -7,8 +7,11 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import ClassVar, NamedTuple
 
+import numpy as np
+
 from ...core.errors import InputError, brief, require_finite, require_non_negative, require_positive
 from ...core.inputs import quantities
+from ...core.model import Array
 
 TURN = 2.0 * math.pi
 
@@ -140,6 +143,11 @@ class SunkArc:
     def covers(self, angle: float) -> bool:
         """Return whether it lies at an angle [rad]."""
         return (angle - self.start) % TURN < self.end - self.start
+
+    def depth_at(self, angle: Array, share: Array) -> Array:
+        """Return its depth over the clearance at angles (N,) [rad] and shares of the length (M,), (N, M)."""
+        around = (angle - self.start) % TURN < self.end - self.start
+        return self.depth_ratio * np.logical_and.outer(around, share < self.share)
 
 
 @dataclass(frozen=True)

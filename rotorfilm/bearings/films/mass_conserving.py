@@ -19,6 +19,7 @@ from ...native.film_kernels import Status
 from ...native.library import loops
 from ...native.structs import structure
 from .geometry import TURN, FilmGeometry, Span
+from .mobility import Mobility, per_rate
 
 # The cells of a film that conserves its oil: lines that stay in the bearing, cells along half the length.
 
@@ -46,6 +47,11 @@ class ConservedCells(NamedTuple):
         Whether a groove all round ends the film at mid-length.
     whole : bool
         Whether the cells go along the whole length, so that the journal may tilt, and not along half of it.
+    wall : ndarray, shape (3, N), or None
+        Gap of the centered journal on land, over the clearance, at the faces after the lines, just before and
+        just behind the lines; None of a bore.
+    depth : ndarray, shape (N, M), or None
+        Depth of a recess over the clearance from a line to the next one; None without recesses.
     """
 
     angle: Array
@@ -54,6 +60,19 @@ class ConservedCells(NamedTuple):
     opening: np.ndarray
     grooved: bool = False
     whole: bool = False
+    wall: Array | None = None
+    depth: Array | None = None
+
+    @property
+    def beside(self) -> Array:
+        """By how much the gap just before and just behind a line differs from that of its cell, (2, N, M)."""
+        share = np.stack([np.roll(self.spacing, 1), self.spacing]) / (2.0 * self.extent)
+        gaps = np.zeros((2, *self.opening.shape))
+        if self.wall is not None:
+            gaps += self.wall[1:, :, None]
+        if self.depth is not None:
+            gaps += np.stack([np.roll(self.depth, 1, axis=0), self.depth])
+        return gaps - np.sum(share[:, :, None] * gaps, axis=0)
 
     @property
     def face(self) -> Array:
@@ -121,7 +140,8 @@ def conserved_cells(
     first = np.concatenate([[0], np.cumsum(counts)])
     lines = int(first[-1])
     angle = [piece.start + piece.extent * np.arange(n) / n for piece, n in zip(pieces, counts, strict=True)]
-    width = _widths(sorted({span.share for span in openings} | {1.0}), along)
+    ends = {span.share for span in openings} | {sunk.share for sunk in geometry.recesses} | {1.0}
+    width = _widths(sorted(ends), along)
     middle = np.cumsum(width) - 0.5 * width
     opening = np.full((lines, len(width)), FILM, dtype=np.int32)
     for k, span in enumerate(openings):
@@ -129,10 +149,14 @@ def conserved_cells(
         held = np.arange(start, start + _lines_of(span, pieces, counts)) % lines
         opening[np.ix_(held, middle < span.share)] = k
     spacing = np.repeat([p.extent / n for p, n in zip(pieces, counts, strict=True)], counts)
+    theta, depth = np.concatenate(angle), None
+    if geometry.recesses:
+        depth = np.sum([sunk.depth_at(theta + 0.5 * spacing, middle) for sunk in geometry.recesses], axis=0)
     if whole:
         width = 0.5 * np.concatenate([width[::-1], width])
         opening = np.hstack([opening[:, ::-1], opening])
-    return ConservedCells(np.concatenate(angle), spacing, width, opening, geometry.circumferential, whole)
+        depth = None if depth is None else np.hstack([depth[:, ::-1], depth])
+    return ConservedCells(theta, spacing, width, opening, geometry.circumferential, whole, depth=depth)
 
 
 def _lines_of(span: Span, pieces: list[Span], counts: list[int]) -> int:
@@ -488,7 +512,8 @@ def direction(angle: Array) -> Array:
 class ConservedFilm:
     """The film on given cells with a given supply; a step in time is the same call with a storage.
 
-    With H the gap, theta the share of it that is oil, P >= 0 from the pressure of the cavity,
+    With H the gap of a bore, of pads about centers of their own or of a recess, theta the share of it that is
+    oil, and P >= 0 from the pressure of the cavity,
 
         d(theta H)/dt + rate (theta H)_xi = (H^3 P_xi)_xi + (L/D)^-2 H^3 P_zz,   P (1 - theta) = 0,
 
@@ -507,12 +532,18 @@ class ConservedFilm:
     supply : Supply
     fluidity : Fluidity, optional
         Fluidity of oil whose viscosity is not everywhere that of the units; cells keep it.
+    mobility : Mobility, optional
+        Factors of a turbulent film. In the cavity those of shear and Couette flow are those of the full gap.
+    reynolds_scale : float [m3/kg s]
+        Radius times clearance over viscosity, where the mobility has a density.
     """
 
     cells: ConservedCells
     slenderness: float
     supply: Supply
     fluidity: Fluidity | None = None
+    mobility: Mobility | None = None
+    reynolds_scale: float = 0.0
 
     @cached_property
     def held(self) -> tuple[Array, Array]:
@@ -555,7 +586,7 @@ class ConservedFilm:
         return 4 if self.cells.whole else 2
 
     def gap(self, place: Array, full: float = 1.0) -> Gap:
-        """Return the gap `full` - (e + Z tau).n around a journal, with full = 0 the slope by a unit of place.
+        """Return the gap `full` wall - (e + Z tau).n around a journal; with full 0 the slope by a place.
 
         Parameters
         ----------
@@ -601,13 +632,17 @@ class ConservedFilm:
         found = solve_oil(equations, *self.held, guess, by_newton=by_newton)
         return ConservedState(gap, rate, equations, found, 0.0 if storage is None else storage[0])
 
-    def equations(self, gap: Gap, rate: float, storage: Storage | None = None) -> OilCells:
-        """Return the equations of the film in a gap."""
+    def equations(
+        self, gap: Gap, rate: float, storage: Storage | None = None, *, by_rate: bool = False
+    ) -> OilCells:
+        """Return the equations of the film in a gap, or their derivatives by the rate."""
         (lines, along), (storing, held) = self.cells.opening.shape, storage or (0.0, None)
         numbers, struct = np.empty(lines * (4 * along + 1)), structure("rf_oil_cells")()
-        loops()["rf_set_oil"](
-            byref(self.shape), byref(gap.struct), None, rate, storing, byref(struct), address(numbers)
-        )
+        given, found = (byref(self.shape), byref(gap.struct)), (byref(struct), address(numbers))
+        if by_rate:
+            loops()["rf_set_oil_by_rate"](*given, rate, *found)
+        else:
+            loops()["rf_set_oil"](*given, None, rate, storing, *found)
         wedge, around, store = numbers[: 3 * lines * along].reshape(3, lines, along)
         old = None if held is None else held * self.cells.area
         made = OilCells(
@@ -671,16 +706,21 @@ class ConservedFilm:
         return float(2.0 * state.rate * np.sum(sheared) + 6.0 * np.sum(dragged * rise))
 
     def sheared_area(self, state: ConservedState) -> Array:
-        """Return the integral of theta/H over the cells of film, shape (N, M) [rad].
+        """Return the integral of theta/H and the factor of the shear over the cells of film, (N, M) [rad].
 
         Up to the edges of openings: of the cell of an edge half is film, and full.
         """
-        cells, per_gap = self.cells, 1.0 / state.gap.line
-        film, half = cells.opening == FILM, 0.5 * cells.spacing[:, None]
-        own = state.solution.theta * (cells.extent[:, None] * per_gap)
-        behind = np.where(np.roll(film, 1, axis=0), 0.0, np.roll(half * per_gap, 1, axis=0))
-        before = np.where(np.roll(film, -1, axis=0), 0.0, half * np.roll(per_gap, -1, axis=0))
-        return np.where(film, own + behind + before, 0.0) * cells.width
+        cells, gap = self.cells, state.gap.line + self.cells.beside
+        per_gap, film = 1.0 / gap, cells.opening == FILM
+        if self.mobility is not None:
+            local = self.mobility.at_rate(np.array([state.rate]), self.reynolds_scale)
+            per_gap *= self.mobility.factors(local * gap)[0][3]
+        half = 0.5 * cells.spacing[:, None]
+        before, behind = half * np.roll(per_gap[0], -1, axis=0), half * per_gap[1]
+        own = state.solution.theta * (np.roll(before, 1, axis=0) + behind)
+        beyond = np.where(np.roll(film, 1, axis=0), 0.0, np.roll(behind, 1, axis=0))
+        ahead = np.where(np.roll(film, -1, axis=0), 0.0, before)
+        return np.where(film, own + beyond + ahead, 0.0) * cells.width
 
 
 def once_for_each(make: Callable[[Any], Any]) -> Callable[[Any], Any]:
@@ -703,12 +743,14 @@ def shape_of(film: ConservedFilm) -> Any:
     given: tuple[Array | None, Array | None] = (None, None)
     if film.fluidity is not None:
         given = at_faces(film.fluidity.pressed, cells.opening != FILM), film.dragged
-    first = supply.end_pressure if cells.whole else supply.center_pressure
+    first, eased = supply.end_pressure if cells.whole else supply.center_pressure, film.mobility
+    none = structure("rf_mobility")()
     return in_c(
         "rf_oil_shape",
         *(*cells.opening.shape, len(supply.fed), cells.spacing, film.directions, cells.width, film.along),
         *(*given, cells.opening, supply.fed, supply.flow, supply.pressure),
-        *(first, supply.end_pressure, film.slenderness, cells.whole),
+        *(first, supply.end_pressure, film.slenderness, cells.whole, cells.wall, cells.depth),
+        none if eased is None else eased.struct(per_rate(eased, film.reynolds_scale)),
     )
 
 

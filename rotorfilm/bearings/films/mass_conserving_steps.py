@@ -108,7 +108,7 @@ class FilmInMotion:
         They belong to motions slow against the time that oil takes to cross the cavity.
         """
         (moved, held), count = self._slopes, len(self._slopes[0])
-        dragged = self._dragged(self.state.solution.theta)[None]
+        dragged = self._by_speed[None]
         found = self._found(0.0, np.concatenate([moved, dragged]), 1.0, np.concatenate([held, 0.0 * dragged]))
         return found[:, :count], found[:, count + 1 : -1], -found[:, count] / self.scale
 
@@ -123,10 +123,10 @@ class FilmInMotion:
         So it answers at once, to a motion too quick for oil to cross the cavity. The state has no storage.
         """
         moved, held = self._slopes
-        solution, rate = self.state.solution, 2.0 * self.state.rate
+        solution = self.state.solution
         thinned = np.where(solution.full, 0.0, -solution.theta * self._widening())
-        moved = moved + rate * np.array([self._dragged(theta) for theta in thinned])
-        right = -np.concatenate([moved, held, self._dragged(solution.theta)[None]])
+        moved = moved + np.array([self._carried(theta) for theta in thinned])
+        right = -np.concatenate([moved, held, self._by_speed[None]])
         keeps = np.where(solution.full, 0.0, KEEPS * self.film.cells.area)
         right = np.where(solution.full, right, 0.0)
         return -self._force(oil_response(self.state.equations, solution.full, keeps, right))
@@ -172,20 +172,24 @@ class FilmInMotion:
 
     def _wave(self, s: complex) -> tuple[Complex, Complex]:
         """Return what stands for s in the storage of the cavity, shape (N, M), and its derivative by s."""
-        speed = 2.0 * abs(self.state.rate) * self.film.dragged
+        speed = 2.0 * np.abs(self.state.equations.wedge) / (self.state.gap.face * self.film.cells.width)
         turn = 2.0 * complex(s) * self.film.cells.extent[:, None]
         resolved = np.abs(turn) <= speed
         phase = np.where(resolved, turn, 0.0) / np.where(speed > 0.0, speed, 1.0)
         known = np.where(phase == 0.0, 1.0, phase)
         return s * np.where(phase == 0.0, 1.0, np.expm1(phase) / known), np.exp(phase)
 
-    def _dragged(self, theta: Array) -> Array:
-        """Return what leaves the cells by transport alone, per speed, shape (N, M)."""
-        film, equations, none = self.film, self.state.equations, np.zeros(theta.shape)
-        wedge = 0.5 * self.state.gap.face * film.dragged * film.cells.width
-        still = replace(
-            equations, wedge=wedge, around=none, store=none, along=np.zeros_like(equations.along), old=None
-        )
+    @cached_property
+    def _by_speed(self) -> Array:
+        """D outflow / d speed, shape (N, M)."""
+        equations = self.film.equations(self.state.gap, self.state.rate, by_rate=True)
+        solution = self.state.solution
+        return 0.5 * oil_outflow(equations, solution.pressure, solution.theta)
+
+    def _carried(self, theta: Array) -> Array:
+        """Return what leaves the cells by transport alone, shape (N, M)."""
+        equations, none = self.state.equations, np.zeros(theta.shape)
+        still = replace(equations, around=none, store=none, along=np.zeros_like(equations.along), old=None)
         return oil_outflow(still, none, theta)
 
     def _widening(self) -> Array:
@@ -592,7 +596,8 @@ class MassConserving(ConservedAtRest):
 
     def _inside(self, u: ArrayLike, when: str) -> Array:
         motion = contiguous(input_vector(u))
-        require_inside(motion[:2], self.clearance, when)
+        if self.film.cells.wall is None:  # else the library tells
+            require_inside(motion[:2], self.clearance, when)
         return motion
 
     def _require_fields(self, cavitation_pressure: float, submerged: bool) -> None:
@@ -630,7 +635,9 @@ def oil_spec(scaled: ScaledFilm) -> NativeSpec:
         *(scaled.cavitation_pressure, scaled.carrying, LARGEST_ANGLE, LARGEST_WAY),
         *(fed or given, fed, scaled.stiffness is not None),
     ]
-    tables: dict[str, Array] = {
+    tables: dict[str, Array] = {} if film.mobility is None else film.mobility.tables()
+    tables |= {name: row for name in ("wall", "depth") if (row := getattr(cells, name)) is not None}
+    tables |= {
         "film": np.array(numbers, dtype=float),
         "lines": np.vstack([cells.spacing[None], film.directions.reshape(4, -1)]),
         "width": cells.width,

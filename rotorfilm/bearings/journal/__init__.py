@@ -39,6 +39,7 @@ if TYPE_CHECKING:
         HeatedJFOState as HeatedJFOState,
         HeatedState as HeatedState,
     )
+    from .held_tilt import HeldTilt as HeldTilt
     from .jfo_film import (
         RUPTURE_CELLS,
         JFOFilm as JFOFilm,
@@ -55,6 +56,7 @@ if TYPE_CHECKING:
         MomentCarryingJournal as MomentCarryingJournal,
         TiltEstimate as TiltEstimate,
         TiltLevel as TiltLevel,
+        is_mapped,
     )
     from .reynolds_film import (
         ExtrapolatedFilm as ExtrapolatedFilm,
@@ -69,5 +71,6 @@ if TYPE_CHECKING:
         SlitArc as SlitArc,
     )
     from .splitting_film import SpectralArcFilm as SpectralArcFilm, SplittingFilm as SplittingFilm
+    from .tilt_map import has_tilt_map
 else:
     show(__name__)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, TypeVar, runtime_checkable
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,7 +20,6 @@ from ...core.inputs import arguments, quantities
 from ...core.model import Array
 from ...core.readable import Drawable
 from ..films.finite_volumes import require_cells
-from ..films.geometry import FilmGeometry
 from ..films.mass_conserving import (
     FILM,
     ConservedFilm,
@@ -29,8 +28,8 @@ from ..films.mass_conserving import (
     conserved_cells,
 )
 from ..films.mass_conserving_steps import ScaledFilm
-from ..films.mobility import require_no_mobility
-from .bearing import JournalBearing, StaticFilm
+from ..films.mobility import require_laminar, require_no_mobility
+from .bearing import StaticFilm
 from .energy_equation import (
     AdiabaticWalls,
     BushRing,
@@ -42,7 +41,7 @@ from .energy_equation import (
     Walls,
 )
 from .film_flow import FilmCells, FilmFlow, FrozenFilm, fed_film, film_cells, film_weight, in_cells, through
-from .jfo_film import JFOFilm, jfo_state
+from .jfo_film import ArcBearing, JFOFilm, jfo_state
 from .reynolds_film import ReynoldsFilm
 
 # Film and temperature solved in turn until both rest: what films with a field share (T2 and T3).
@@ -57,29 +56,6 @@ SETTLED, ONE_NODE = 1e-5, 2e-3
 
 
 State = TypeVar("State", bound="HeatedState")
-
-
-@runtime_checkable
-class ArcBearing(Protocol):
-    """A bearing whose wall are arcs, about its own center or each about one of its own, as `LobedBearing`.
-
-    Pads that tilt are without tilt here, and `on_frozen` puts them on a film.
-    """
-
-    @property
-    def clearance(self) -> float:
-        """Radial clearance of the arcs [m]."""
-
-    @property
-    def cooled(self) -> tuple[Any, Any]:
-        """Oil and cooling."""
-
-    @property
-    def geometry(self) -> FilmGeometry:
-        """Arcs and openings."""
-
-    def centers_at(self, angle: Array) -> Array | None:
-        """Return centers of curvature at angles (N,) [rad] over the clearance, (2, N); None of one."""
 
 
 class HeatRounds:
@@ -559,10 +535,13 @@ class HeatedJFOFilm(HeatRounds):
 
     def __post_init__(self) -> None:
         require_kind("film", self.film, JFOFilm, "a JFOFilm of a bearing with oil and cooling")
+        require_laminar(self.bearing, "HeatedJFOFilm")
+        if self.film.mobility is not None:
+            raise InputError(f"film must have mobility=None for HeatedJFOFilm, got {self.film.mobility!r}")
         self._require_heat()
 
     @property
-    def bearing(self) -> JournalBearing:
+    def bearing(self) -> Any:
         """The bearing of the film."""
         return self.film.bearing
 

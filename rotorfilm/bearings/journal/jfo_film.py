@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,17 +21,28 @@ from ...core.errors import (
 )
 from ...core.inputs import arguments, quantities
 from ...core.model import Array
+from ...core.port import minimum_film
 from ...core.readable import Drawable, Readable
 from ...core.results import BearingLosses, ReducedCoefficients
 from ...core.signals import Signal, journal_inputs
-from ..films.mass_conserving import FILM, ConservedFilm, ConservedState, Supply, conserved_cells, warn_of_air
+from ..films.geometry import FilmGeometry
+from ..films.mass_conserving import (
+    FILM,
+    ConservedCells,
+    ConservedFilm,
+    ConservedState,
+    Supply,
+    conserved_cells,
+    direction,
+    warn_of_air,
+)
 from ..films.mass_conserving_steps import ConservedAtRest, FilmInMotion, MassConserving, ScaledFilm
-from ..films.mobility import require_laminar
+from ..films.mobility import Mobility, require_mobility, require_no_mobility
 from ..formulas import extrapolated_value
 from ..oil import Cooling, Oil
 from ..oil.heated_bearing import FilmHeat, balance_temperature, fed_temperature, film_heat
 from ..reaction import NOMINAL_SPEED
-from .bearing import JournalBearing, StaticFilm, fitted_bearing
+from .bearing import StaticFilm, fitted_bearing
 from .moment_carrying_journal import TiltedJournal, kind_of
 from .reynolds_film import ReynoldsFilm
 
@@ -81,6 +92,29 @@ def opening_pressure(film: ConservedFilm, state: ConservedState) -> Array:
 # A journal bearing whose film conserves its oil where it ruptures, in SI units.
 
 
+@runtime_checkable
+class ArcBearing(Protocol):
+    """A bearing whose wall are arcs, about its own center or each about one of its own, as `LobedBearing`.
+
+    Pads that tilt are without tilt here, and `on_frozen` puts them on a film.
+    """
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance of the arcs [m]."""
+
+    @property
+    def cooled(self) -> tuple[Any, Any]:
+        """Oil and cooling."""
+
+    @property
+    def geometry(self) -> FilmGeometry:
+        """Arcs and openings."""
+
+    def centers_at(self, angle: Array) -> Array | None:
+        """Return centers of curvature at angles (N,) [rad] over the clearance, (2, N); None of one."""
+
+
 AT_REST = np.eye(2)
 """Axes in which the film of a journal stands."""
 
@@ -88,7 +122,7 @@ AT_REST = np.eye(2)
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class JFOFilm(MassConserving):
-    """The film of a journal bearing with mass-conserving cavitation (Jakobsson, Floberg and Olsson).
+    """The film of a fixed bearing with mass-conserving cavitation (Jakobsson, Floberg and Olsson).
 
     Behind the rupture the oil flows on in a partly filled gap, until there is enough oil to form a film
     again. So the film starts where oil is supplied, and not where Reynolds' rupture starts it: the supply by
@@ -101,10 +135,12 @@ class JFOFilm(MassConserving):
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing, LobedBearing or PressureDamBearing
         The bearing with its supply: short grooves, feed holes, a circumferential groove, or grooves over the
         whole length at ambient pressure. Gaps between pads are full of oil at ambient pressure. Its own film
-        law is not used. With an oil and a cooling, `equilibrium` finds the film temperature too.
+        law is not used. With an oil and a cooling, `equilibrium` finds the film temperature too. Its
+        turbulence acts on pressure flow and shear: in the cavity with the factors of a full gap, on the part
+        of it that is oil.
     cells : tuple of int
         Approximate numbers of lines around the film and of cells along half the length; even.
     supply_flow : float or None [m3/s]
@@ -115,6 +151,8 @@ class JFOFilm(MassConserving):
     submerged : bool
         Whether there is oil around the ends, which they draw in where the film is below ambient pressure.
         Otherwise they would draw in air, and a warning says so.
+    mobility : Mobility or None
+        How easily the oil flows over the thickness of the film (`mobility_of`); None for laminar flow.
 
     Raises
     ------
@@ -141,15 +179,19 @@ class JFOFilm(MassConserving):
     order: ClassVar[int] = 2
     """Order of convergence of the force in the size of the cells."""
 
-    bearing: JournalBearing
+    bearing: Any
     cells: tuple[int, int] = (144, 10)
     supply_flow: float | None = None
     cavitation_pressure: float = 0.0
     submerged: bool = False
+    mobility: Mobility | None = None
 
     def __post_init__(self) -> None:
-        require_kind("bearing", self.bearing, JournalBearing, "a JournalBearing")
-        require_laminar(self.bearing, "JFOFilm")
+        require_fixed(self.bearing)
+        require_no_mobility(self.bearing, "JFOFilm")
+        require_mobility(self.mobility)
+        if self.mobility is not None and self.bearing.turbulence is not None:
+            raise InputError(f"mobility must be None in a turbulent bearing, got {self.mobility!r}")
         self._require_fields(self.cavitation_pressure, self.submerged)
         if self.supply_flow is not None:
             require_positive("supply_flow", self.supply_flow)
@@ -157,8 +199,21 @@ class JFOFilm(MassConserving):
 
     @property
     def clearance(self) -> float:
-        """Radial clearance of the bearing [m]."""
-        return self.bearing.clearance
+        """Radial clearance of the bearing [m], of pads their own."""
+        clearance: float = self.bearing.clearance
+        return clearance
+
+    @property
+    def minimum_film(self) -> Any:
+        """What tells where a journal touches, of bearings that do; no attribute of a circular bore."""
+        return self.bearing.minimum_film
+
+    def require_film(self, position: Array) -> None:
+        """Raise FilmContactError where the journal touches the wall at a position (2,) [m]."""
+        if hasattr(self, "minimum_film"):
+            self.bearing.require_film(position)
+        else:
+            require_inside(position, self.clearance)
 
     @cached_property
     def scaled(self) -> ScaledFilm:
@@ -171,7 +226,13 @@ class JFOFilm(MassConserving):
         bearing.require_temperature()
         supply = oil_supply(bearing, self.supply_flow, self.cavitation_pressure, self.submerged)
         cells = conserved_cells(bearing.geometry, *self.cells, whole=whole)
-        film = ConservedFilm(cells, bearing.slenderness, supply)
+        film = ConservedFilm(
+            cells._replace(wall=wall_of(bearing, cells)),
+            bearing.slenderness,
+            supply,
+            mobility=bearing.turbulent_mobility or self.mobility,
+            reynolds_scale=bearing.radius * bearing.clearance / bearing.film_viscosity,
+        )
         # Openings that end in the bearing are at the supply.
         supplied = np.array([span.share < 1.0 for span in bearing.geometry.openings()], dtype=bool)
         pressed = self.supply_flow is None and (supplied.any() or bearing.geometry.circumferential)
@@ -185,7 +246,7 @@ class JFOFilm(MassConserving):
             axial=0.5 * (bearing.length - bearing.film_length * (1.0 - film.cells.axial)),
             cavitation_pressure=self.cavitation_pressure,
             supplied=supplied,
-            supply_pressure=bearing.supply_pressure if pressed else None,
+            supply_pressure=supply_pressure(bearing) if pressed else None,
             supply_flow=self.supply_flow,
         )
 
@@ -249,7 +310,7 @@ class JFOFilm(MassConserving):
     def at_place(self, position: Array, velocity: Array, speed: float) -> tuple[ConservedState, Array, float]:
         """Return the film of a journal at rest, in axes at rest; InputError unless the velocity is 0."""
         require_at_rest(velocity)
-        require_inside(position, self.clearance)
+        self.require_film(position)
         film = self.film
         return film.solve(film.gap(position / self.clearance), 0.5 * speed), AT_REST, 0.0
 
@@ -306,16 +367,17 @@ class JFOFilm(MassConserving):
     @property
     def is_warming(self) -> bool:
         """Whether the heat balance determines the temperature of the film."""
-        return self.bearing.is_warming
+        return bool(self.bearing.is_warming)
 
     @property
     def cooled(self) -> tuple[Oil, Cooling]:
         """Oil and cooling of its bearing; InputError if one of them is not given."""
-        return self.bearing.cooled
+        found: tuple[Oil, Cooling] = self.bearing.cooled
+        return found
 
     def coldest(self) -> float:
         """Return the lowest possible film temperature [K]; raises InputError without cooling."""
-        return self.bearing.coldest()
+        return float(self.bearing.coldest())
 
     def balanced(self) -> None:
         """Return None: no model has the balance temperature at every state."""
@@ -340,7 +402,8 @@ class JFOFilm(MassConserving):
             # What arrives at an opening with a given flow cannot leave by it: all of it goes on.
             return found if self.supply_flow is None else found._replace(flow=found.side_flow)
 
-        if self.bearing.supply_pressure == 0.0 and self.supply_flow is None and not self.cavitation_pressure:
+        is_fed = self.supply_flow is not None or supply_pressure(self.bearing) or self.cavitation_pressure
+        if not (is_fed or self.bearing.turbulence or self.mobility):
             return balance_temperature(heat(cooling.coldest), oil, cooling)
         return fed_temperature(heat, oil, cooling)
 
@@ -390,7 +453,7 @@ class MomentCarryingJFOFilm(TiltedJournal, ConservedAtRest):
             )
 
     @property
-    def bearing(self) -> JournalBearing:
+    def bearing(self) -> Any:
         """The bearing of the film."""
         return self.film.bearing
 
@@ -406,8 +469,8 @@ class MomentCarryingJFOFilm(TiltedJournal, ConservedAtRest):
 
     def least(self, place: Array) -> float:
         """Return the least film over the clearance at one place (e, tau)."""
-        ends = (place[:2] + place[2:], place[:2] - place[2:])
-        return 1.0 - max(float(np.hypot(*end)) for end in ends)
+        ends = np.stack([place[:2] + place[2:], place[:2] - place[2:]], axis=1)
+        return float(np.min(minimum_film(self.film, self.clearance * ends))) / self.clearance
 
     def at_place(self, position: Array, velocity: Array, speed: float) -> tuple[ConservedState, Array, float]:
         """Return the film of a journal at rest, and the scales of its forces and moments."""
@@ -424,6 +487,32 @@ class MomentCarryingJFOFilm(TiltedJournal, ConservedAtRest):
     def at_rest(self) -> MomentCarryingJFOFilm:
         """Return this film: its force is that of a journal at rest."""
         return self
+
+
+def require_fixed(bearing: object) -> None:
+    """Raise InputError unless a bearing is one of arcs that stand."""
+    require_kind("bearing", bearing, ArcBearing, "a JournalBearing, LobedBearing or PressureDamBearing")
+    if hasattr(bearing, "on_frozen"):
+        raise InputError(f"bearing must have pads that do not tilt for JFOFilm, got {kind_of(bearing)}")
+
+
+def supply_pressure(bearing: Any) -> float:
+    """Return the gauge pressure in the openings of a bearing [Pa], 0 of gaps between pads."""
+    return float(getattr(bearing, "supply_pressure", 0.0))
+
+
+def wall_of(bearing: ArcBearing, cells: ConservedCells) -> Array | None:
+    """Return the gap of the centered journal over the clearance, as of `ConservedCells.wall`."""
+    centers = bearing.centers_at(cells.face)
+    if centers is None:
+        return None
+    beside = centers, np.roll(centers, 1, axis=1), centers
+    return np.array(
+        [
+            1.0 + np.sum(own * direction(angle), axis=0)
+            for own, angle in zip(beside, (cells.face, cells.angle, cells.angle), strict=True)
+        ]
+    )
 
 
 def require_at_rest(velocity: Array) -> None:
@@ -505,7 +594,7 @@ REMEDY = (
 
 
 def oil_supply(
-    bearing: JournalBearing, supply_flow: float | None, cavitation_pressure: float, submerged: bool
+    bearing: Any, supply_flow: float | None, cavitation_pressure: float, submerged: bool
 ) -> Supply:
     """Return the supply of a film.
 
@@ -536,9 +625,9 @@ def oil_supply(
     )
 
 
-def _require_no_open_groove(bearing: JournalBearing, supply_flow: float | None) -> None:
+def _require_no_open_groove(bearing: Any, supply_flow: float | None) -> None:
     """Raise InputError for a groove open at both ends of the bearing that is to have a pressure."""
-    if bearing.geometry.grooves and (bearing.supply_pressure > 0.0 or supply_flow is not None):
+    if bearing.geometry.grooves and (supply_pressure(bearing) > 0.0 or supply_flow is not None):
         raise InputError(
             "grooves with a supply must end within the bearing, or their flow has no limit: give them a "
             f"length, as Groove(center=..., width=..., length={0.8 * bearing.length:g}), "
@@ -546,7 +635,7 @@ def _require_no_open_groove(bearing: JournalBearing, supply_flow: float | None) 
         )
 
 
-def _require_no_open_gap(bearing: JournalBearing) -> None:
+def _require_no_open_gap(bearing: Any) -> None:
     """Raise InputError for a circumferential groove under pressure that opens into gaps between pads."""
     geometry = bearing.geometry
     if (
@@ -560,9 +649,9 @@ def _require_no_open_gap(bearing: JournalBearing) -> None:
         )
 
 
-def _require_closed(bearing: JournalBearing) -> None:
+def _require_closed(bearing: Any) -> None:
     """Raise InputError unless every opening is one that can be given a flow."""
-    if bearing.pads or not bearing.geometry.pockets or bearing.geometry.circumferential:
+    if bearing.geometry.pads or not bearing.geometry.pockets or bearing.geometry.circumferential:
         raise InputError(
             "supply_flow must be None unless all openings of the bearing are grooves of a length or feed "
             f"holes, got {kind_of(bearing)}"
@@ -598,7 +687,7 @@ class RuptureError(Readable):
 
 
 @arguments
-def rupture_error(bearing: JournalBearing, position: ArrayLike, speed: float) -> RuptureError:
+def rupture_error(bearing: Any, position: ArrayLike, speed: float) -> RuptureError:
     """Return the error of Reynolds rupture in a bearing with its supply, for a journal at rest.
 
     Both films are solved on 36 x 4 and on 72 x 8 cells, and extrapolated. It is an estimate, not a bound:
@@ -606,7 +695,7 @@ def rupture_error(bearing: JournalBearing, position: ArrayLike, speed: float) ->
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing, LobedBearing or PressureDamBearing
         The bearing with its supply; its own film law is not used.
     position : array_like, shape (2,) [m]
         Position of the journal's center.
@@ -632,7 +721,7 @@ def rupture_error(bearing: JournalBearing, position: ArrayLike, speed: float) ->
     >>> rupture_error(bearing, position=[30e-6, -50e-6], speed=314.2).side_flow_error > 0.3
     True
     """
-    require_kind("bearing", bearing, JournalBearing, "a JournalBearing")
+    require_fixed(bearing)
     if speed == 0.0:
         raise InputError("speed must not be zero for a film that ruptures, got 0.0")
     place, rest = require_vector("position", position), np.zeros(2)
@@ -651,14 +740,14 @@ def rupture_error(bearing: JournalBearing, position: ArrayLike, speed: float) ->
     )
 
 
-def _numbers(film: JournalBearing | JFOFilm, place: Array, rest: Array, speed: float) -> Array:
+def _numbers(film: Any, place: Array, rest: Array, speed: float) -> Array:
     """Return the force (2,) [N], the side flow [m3/s] and the torque [N m]."""
     losses = film.losses(place, rest, speed)
     assert losses is not None  # of films on grids
     return np.array([*film.force(place, rest, speed), losses.side_flow, losses.friction_torque])
 
 
-def both_films(bearing: JournalBearing, cells: tuple[int, int]) -> tuple[JournalBearing, JFOFilm]:
+def both_films(bearing: Any, cells: tuple[int, int]) -> tuple[Any, JFOFilm]:
     """Return a bearing with Reynolds rupture and the film that conserves its oil, on the same cells.
 
     Raises
@@ -667,4 +756,6 @@ def both_films(bearing: JournalBearing, cells: tuple[int, int]) -> tuple[Journal
         If the bearing has no supply, or one that cannot be.
     """
     conserved = JFOFilm(bearing=bearing, cells=cells)
-    return fitted_bearing(bearing, ReynoldsFilm(cells=cells)), conserved
+    if bearing.centers_at(np.zeros(1)) is None:
+        return fitted_bearing(bearing, ReynoldsFilm(cells=cells)), conserved
+    return bearing.on_cells(*cells), conserved

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
 
@@ -195,6 +196,11 @@ class MobileMapFilm(KernelFilm):
     def at_scale(self, reynolds_scale: float) -> MobileMapFilm:
         """Return this film in a bearing of these dimensions; see `FilmOptions`."""
         return dataclasses.replace(self, reynolds_scale=reynolds_scale)
+
+    def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
+        """Return the kernel and its tables, made now if they are not there yet; see `FilmOptions`."""
+        tables = self.built_table(slenderness).kernel(1.0).tables
+        return "turbulent_journal", {**tables, "oil": np.array([slenderness, self.mobility.density])}
 
     def tabulated(self, slenderness: float) -> MobileMapFilm:
         """Return this film with its table; see `FilmOptions`."""

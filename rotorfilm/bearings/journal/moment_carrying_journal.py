@@ -134,9 +134,10 @@ class TiltEstimate(NamedTuple):
     """What a tilt does to a film, and how far a level is off.
 
     The estimates come from the part of the force that the tilt makes. Of a plain bearing at rest they hold
-    within a factor of two in nine of ten states, of a moment in 17 of 20, of the force of second order in
-    eight of ten. Near the center they come from the shifts of end and middle, and rather say too much: there
-    the end shifts 1.5 times as far as the middle, or more.
+    within a factor of two in nine of ten states, those of a moment in 17 of 20. The error of the force of
+    second order is its term of fourth order, which the map tells by how it changes over the tilt. Near the
+    center they come from the shifts of end and middle, and rather say too much: there the end shifts 1.5
+    times as far as the middle, or more.
 
     Attributes
     ----------
@@ -165,6 +166,13 @@ USUAL_CORRECTION = 0.57
 
 CLOSED_MOMENT_ERROR = 0.3
 """Of the moment in closed form at small tilts, usually; in single directions it is three times as much."""
+
+FOURTH_ORDER, MOST_FOURTH_ORDER, PART = 0.38, 0.05, 0.3
+"""Force of fourth order over the second derivative of that of second order along the tilt, in shares of
+`moment_share` and at most; and the part of the tilt over which that derivative is taken."""
+
+MAP_ERROR = 2e-5
+"""Of the force of a map of tilts, beside what it leaves out."""
 
 MOST_DRIVE = 1.5
 """Shift of an end over that of the middle up to which the second order is told by its own map."""
@@ -500,19 +508,20 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
         share = tilt * self.bearing.clearance / aligned
         near = self._near_center(tilt, float(np.hypot(*place[:2])))
         d = both = USUAL_CORRECTION * share**2
+        fourth = 2.0 * d**2
         told = self.level is TiltLevel.SECOND_ORDER or self.tilt_map is not None
         centered = tilt > MOST_DRIVE * np.hypot(*place[:2])
         if centered:
             d = both = d + near
         elif told and tilt:
             force = self.bearing.force(place[:2] * self.bearing.clearance, np.zeros(2), speed)
-            d, across = self._corrections(place, speed) / np.hypot(*force)
+            d, across, fourth = self._corrections(place, speed) / np.hypot(*force)
             both = 0.5 * (d + across)
         d, moment = max(d, near), 1.4 * d if centered else max(1.9 * both, 1.4 * near)
         force_error, moment_error = {
             TiltLevel.NONE: (d, 1.0),
             TiltLevel.CLOSED_FORM: (d, CLOSED_MOMENT_ERROR + moment),
-            TiltLevel.SECOND_ORDER: (max(2.0 * d * both, 6.0 * near**2), moment),
+            TiltLevel.SECOND_ORDER: (max(fourth + MAP_ERROR, 6.0 * near**2), moment),
             TiltLevel.FULL: self._grid_errors,
         }[self.level]
         return TiltEstimate(tilt, share, float(d), float(force_error), float(moment_error), 2.0 * float(d))
@@ -533,10 +542,18 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
         return GRID_ERRORS[0] * coarser, GRID_ERRORS[1] * coarser
 
     def _corrections(self, place: Array, speed: float) -> Array:
-        """Return the force [N] that a tilt makes, and that of the same tilt across, to second order."""
-        across = np.append(place[:2], _QUARTER_TURN[:2, :2] @ place[2:])
-        found = [self._map.wrench(at, 0.5 * speed * _QUARTER_TURN @ at)[0] for at in (place, across)]
-        return np.asarray(np.hypot(*np.array(found).T[:2]) * self.bearing.force_scale, dtype=float)
+        """Return the force [N] of second order, that of the same tilt across, and that of fourth order."""
+        tilt = place[2:]
+        across = np.append(place[:2], _QUARTER_TURN[:2, :2] @ tilt)
+        moved = np.append(PART * tilt, np.zeros(2))
+        found = [
+            self._map.wrench(at, 0.5 * speed * _QUARTER_TURN @ at)[0][:2]
+            for at in (place, across, place + moved, place - moved)
+        ]
+        share = min(FOURTH_ORDER * moment_share(float(self.bearing.slenderness)), MOST_FOURTH_ORDER)
+        fourth = share / PART**2 * (found[2] + found[3] - 2.0 * found[0])
+        sizes = np.hypot(*np.transpose([*found[:2], fourth]))
+        return np.asarray(sizes * self.bearing.force_scale, dtype=float)
 
 
 class WholeFilm(NamedTuple):

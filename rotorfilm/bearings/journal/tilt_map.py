@@ -15,6 +15,7 @@ import math
 from ctypes import addressof, byref
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
+from pathlib import Path
 
 import numpy as np
 
@@ -244,6 +245,16 @@ def kernel_of(table: TiltMapTable) -> TiltMapKernel:
     return TiltMapKernel(table)
 
 
+def has_tilt_map(slenderness: float) -> bool:
+    """Return whether the map of tilts of a plain bearing lies on disk."""
+    return _path(slenderness).exists()
+
+
+def _path(slenderness: float) -> Path:
+    rounded = float(f"{slenderness:.9g}")
+    return table_path("tilt", (source_digest(__name__), rounded, CELLS, NODES, SITES, REACH, STEP))
+
+
 @lru_cache(maxsize=16)
 def tilt_kernel(slenderness: float) -> TiltMapKernel:
     """Return the map of tilts of a plain bearing, found on disk or made and kept there, in compiled code.
@@ -256,7 +267,6 @@ def tilt_kernel(slenderness: float) -> TiltMapKernel:
     low, high = SLENDERNESSES
     if not low * (1.0 - 1e-9) <= slenderness <= high * (1.0 + 1e-9):
         raise InputError(f"length/diameter must be {low:g} to {high:g} for a {TITLE}, got {slenderness!r}")
-    rounded = float(f"{slenderness:.9g}")
-    path = table_path("tilt", (source_digest(__name__), rounded, CELLS, NODES, SITES, REACH, STEP))
+    rounded, path = float(f"{slenderness:.9g}"), _path(slenderness)
     telling = told(silent, f"length/diameter {rounded:.6g}", path.parent)
     return TiltMapKernel(cached_table(TiltMapTable, path, lambda: build_tilt_table(rounded, telling)))

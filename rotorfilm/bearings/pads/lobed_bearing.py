@@ -35,6 +35,7 @@ from .pad_bearing import (
     OwnCenter,
     PadBearing,
     PadUnderJournal,
+    cells_on_each,
     heat_slopes_of_pads,
     losses_of_pads,
 )
@@ -263,6 +264,10 @@ class LobedBearing(FilmReaction, PadBearing):
     def extents(self) -> tuple[float, ...]:
         """Angle that each lobe covers [rad]."""
         return tuple(lobe.extent for lobe in self.lobes)
+
+    def on_cells(self, around: int, along: int) -> LobedBearing:
+        """Return this bearing on a grid of about so many cells around all lobes and along half the length."""
+        return replace(self, film=PadGridFilm(cells=cells_on_each(around, along, len(self.lobes))))
 
     def minimum_film(self, position: ArrayLike) -> Array:
         """Return the least film on any pad [m], shape (...), of journals at positions (2, ...) [m].

@@ -224,6 +224,11 @@ WEDGE = np.array([[0.0, 1.0], [-1.0, 0.0]])
 """-z^ x, which makes the wedge of an eccentricity."""
 
 
+def cells_on_each(around: int, along: int, pads: int) -> tuple[int, int]:
+    """Return the cells of one of some pads, multiples of 4, for about so many around all of them."""
+    return max(16, 4 * round(0.25 * around / pads)), along
+
+
 # Power loss, torques and oil flow of a bearing made of pads, from shear and flow of each.
 
 

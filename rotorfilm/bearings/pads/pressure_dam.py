@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from ctypes import addressof, byref, c_double, c_size_t
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar, NamedTuple
 
@@ -35,7 +35,7 @@ from ..films.finite_volumes import are_counts
 from ..films.geometry import TURN, SunkArc
 from ..films.mobility import Mobility, per_rate, require_mobility
 from ..reaction import KernelReaction, broadcast_state
-from .pad_bearing import OwnCenter, PadBearing, collected_losses, cross
+from .pad_bearing import OwnCenter, PadBearing, cells_on_each, collected_losses, cross
 
 # A fixed pad with its own center of curvature, and a recess in it.
 
@@ -269,6 +269,10 @@ class PressureDamBearing(PadBearing, KernelReaction):
         """Return the films in compiled code, extrapolated from two grids or not."""
         self.require_temperature()
         return DamKernel(self.rows, list(self.dimensions.values()), extrapolated, self._oil_mobility)
+
+    def on_cells(self, around: int, along: int) -> PressureDamBearing:
+        """Return this bearing on about so many cells around all pads, and twice as many along as asked."""
+        return replace(self, cells=cells_on_each(around, 2 * along, len(self.pads)))
 
     @property
     def _oil_mobility(self) -> Mobility | None:

@@ -7,7 +7,8 @@
    Tables: film (11: radius, clearance [m], film area [m2], length/diameter, cavitation pressure [Pa], share of the speed that
    carries oil, limits of inner steps as rf_oil_film_si has them, whether there is a supply, whether it is a flow, whether
    there are springs), lines (5 x N: spacing, direction), along (N x (M + 1)), opening (N x M), width (M), supplied (of the
-   openings, with one more: whether it is at the supply). */
+   openings, with one more: whether it is at the supply); of pads wall (3 x N) and depth (N x M) as in oil_shape.h; where
+   the film has a mobility those of grids/mobility.h. */
 
 /* Documentation of the FMU
 
@@ -23,10 +24,11 @@
 
    Equations:
    d(theta H)/dt + rate d(theta H)/dxi = d(H^3 dP/dxi)/dxi + (2 radius/length)^2 d(H^3 dP/dz)/dz
-   P >= 0,  theta <= 1,  P (1 - theta) = 0,  H = 1 - (x cos xi + y sin xi)/clearance
+   P >= 0,  theta <= 1,  P (1 - theta) = 0,  H = A - (x cos xi + y sin xi)/clearance, A = 1 in a bore
    F = -12 viscosity area (radius/clearance)^2 integral of (P - P_end) (cos xi, sin xi)
 
-   Validity: Finite volumes, of second order. Laminar, isothermal, aligned. Cells, openings and ends are those of the model;
+   Validity: Finite volumes, of second order. Isothermal, aligned; laminar unless there is a mobility, whose factors of
+   H^3 are those of the full gap. Cells, openings and ends are those of the model;
    viscosity and supply may change between steps. */
 #include <math.h>
 #include <stdlib.h>
@@ -94,6 +96,23 @@ static int are_apart(const double *along, size_t n, size_t m)
     return 1;
 }
 
+/* The wall of pads and the depth of their recesses, where there are some. */
+static int take_wall(rf_oil_shape *shape, const rf_tables *tables, rf_message *why)
+{
+    const rf_table *wall = rf_seek_table(tables, "wall"), *depth = rf_seek_table(tables, "depth");
+    const size_t n = shape->lines, m = shape->nodes;
+    if (wall && !(wall->axes == 2 && wall->extent[0] == 3 && wall->extent[1] == n && are_positive(wall->numbers, 3 * n)))
+        return rf_say(why, RF_INVALID, "table wall must be positive, of 3 x %zu numbers", n);
+    if (depth && !(wall && depth->axes == 2 && depth->extent[0] == n && depth->extent[1] == m))
+        return rf_say(why, RF_INVALID, "table depth must be beside a wall, of %zu x %zu numbers", n, m);
+    for (size_t q = 0; depth && q < n * m; ++q)
+        if (!(depth->numbers[q] >= 0.0 && depth->numbers[q] < HUGE_VAL))
+            return rf_say(why, RF_INVALID, "table depth must be finite and not negative, got %.9g", depth->numbers[q]);
+    shape->wall = wall ? wall->numbers : NULL;
+    shape->depth = depth ? depth->numbers : NULL;
+    return rf_take_mobility(&shape->mobility, tables, why);
+}
+
 static int take_openings(model *self, const double *openings, size_t all, uint32_t count, rf_message *why)
 {
     rf_oil_shape *shape = &self->film.shape;
@@ -144,6 +163,8 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     shape->width = width->numbers;
     shape->along = along->numbers;
     self->at_supply = supplied->numbers;
+    if (take_wall(shape, tables, why) != RF_OK)
+        return RF_INVALID;
     const size_t parameters = 1u + (self->is[SUPPLIED] != 0.0 ? 1u : 0u) + (self->is[SPRINGS] != 0.0 ? 1u : 0u);
     const rf_sizes mine = {parameters, RF_MOTION, RF_OIL_ANSWERS, 0, 0};
     *sizes = mine;
@@ -179,6 +200,7 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
         return rf_say(why, RF_INVALID, "the supply must be finite and not negative, got %.9g", p[1]);
     set_supply(self, 12.0 * p[0] * slope * slope, supplied ? p[1] : 0.0);
     self->film.force = self->is[AREA] * p[0] * slope * slope;
+    rf_scale_mobility(&self->film.shape.mobility, self->is[RADIUS], self->is[CLEARANCE], p[0]);
     self->stiffness = self->is[SPRINGS] != 0.0 ? p[1 + supplied] : 0.0;
     return RF_OK;
 }

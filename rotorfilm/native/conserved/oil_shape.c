@@ -30,6 +30,32 @@ static double at(const double *direction, size_t lines, double full, const doubl
     return full - (e[0] * direction[0] + e[1] * direction[lines]);
 }
 
+/* The wall of the centered journal: at a face, before a line or behind it. */
+enum side { AT_FACE, BEFORE, BEHIND };
+
+static double wall_at(const rf_oil_shape *shape, enum side side, size_t i)
+{
+    return shape->wall ? shape->wall[side * shape->lines + i] : 1.0;
+}
+
+/* Depth between a line and the next. */
+static double depth_at(const rf_oil_shape *shape, size_t i, size_t j)
+{
+    return shape->depth ? shape->depth[i * shape->nodes + j] : 0.0;
+}
+
+static size_t line_before(const rf_oil_shape *shape, size_t i)
+{
+    return i > 0 ? i - 1 : shape->lines - 1;
+}
+
+/* Of numbers before and behind a line, by what its cell has of both sides. */
+static double mean_of_halves(const rf_oil_shape *shape, size_t i, double before, double behind)
+{
+    const double *spacing = shape->spacing, first = spacing[line_before(shape, i)];
+    return before == behind ? before : (first * before + spacing[i] * behind) / (first + spacing[i]);
+}
+
 void rf_circular_gap(const rf_oil_shape *shape, double full, const double *place, double *numbers)
 {
     const size_t n = shape->lines, m = shape->nodes;
@@ -37,48 +63,161 @@ void rf_circular_gap(const rf_oil_shape *shape, double full, const double *place
     for (size_t i = 0; i < n; ++i, side += m + 1) {
         const double *here = shape->direction + i, *beyond = here + 2 * n;
         const double tilt = at(here, n, 0.0, place + 2), onward = at(beyond, n, 0.0, place + 2);
-        const double mean = at(here, n, full, place), means = at(beyond, n, full, place);
+        const double land = mean_of_halves(shape, i, wall_at(shape, BEFORE, i), wall_at(shape, BEHIND, i));
+        const double mean = at(here, n, full * land, place);
+        const double means = at(beyond, n, full * wall_at(shape, AT_FACE, i), place);
         double z = shape->whole ? -1.0 : 0.0;
         side[0] = mean + z * tilt;
         for (size_t j = 0; j < m; ++j) {
             const double half = (shape->whole ? 1.0 : 0.5) * shape->width[j];
-            line[i * m + j] = mean + (z + half) * tilt;
-            face[i * m + j] = means + (z + half) * onward;
+            const double before = depth_at(shape, line_before(shape, i), j), behind = depth_at(shape, i, j);
+            line[i * m + j] = mean + (z + half) * tilt + full * mean_of_halves(shape, i, before, behind);
+            face[i * m + j] = means + (z + half) * onward + full * behind;
             z += 2.0 * half;
             side[j + 1] = mean + z * tilt;
         }
     }
 }
 
-static double cube(const double *gap, const double *slope, size_t k)
+/* What equations are set: in a gap, or their derivatives by a slope of the gap or by the rate. */
+typedef struct setting {
+    const rf_oil_shape *shape;
+    const rf_oil_gap *gap, *slope;
+    double rate, growth;
+    int by_rate;
+    rf_through last[RF_FACTORS]; /* what was found for the last thicknesses, as many cells have the same */
+    double thickness[RF_FACTORS];
+} setting;
+
+static rf_through through(setting *self, rf_factor way, double H)
 {
-    return slope ? 3.0 * gap[k] * gap[k] * slope[k] : gap[k] * gap[k] * gap[k];
+    if (H != self->thickness[way]) {
+        const rf_mobility *mobility = &self->shape->mobility;
+        self->thickness[way] = H;
+        self->last[way] = way == RF_OF_DRAG ? rf_dragged_beyond(mobility, self->growth, H)
+                                            : rf_pressed(mobility, way, self->growth, H);
+    }
+    return self->last[way];
+}
+
+/* The flow, or its derivative: by a rate that growth is in proportion to, and by one that is a factor of it too. */
+static double taken(const setting *self, rf_through of, double slope)
+{
+    if (self->by_rate)
+        return self->rate != 0.0 && self->shape->mobility.per_rate > 0.0 ? of.grown / self->rate : 0.0;
+    return self->slope ? of.slope * slope : of.flow;
+}
+
+/* One gap behind the other, of which the second has a share of the length. */
+static rf_through in_series(rf_through first, rf_through second, double share)
+{
+    const double a = (1.0 - share) / first.flow, b = share / second.flow, flow = 1.0 / (a + b), square = flow * flow;
+    const rf_through found = {
+        flow,
+        square * (a * first.slope / first.flow + b * second.slope / second.flow),
+        square * (a * first.grown / first.flow + b * second.grown / second.flow),
+    };
+    return found;
+}
+
+/* What flows along at the face before cell j of a line, on one side of the line, which has the depths of line `of`. */
+static rf_through through_side(setting *self, size_t i, size_t of, size_t j)
+{
+    const rf_oil_shape *shape = self->shape;
+    const size_t m = shape->nodes;
+    const double H = self->gap->side[i * (m + 1) + j];
+    if (!shape->depth)
+        return through(self, RF_ALONG, H);
+    size_t near = j > 0 ? j - 1 : j, far = j < m ? j : j - 1;
+    if (shape->opening[i * m + near] != RF_FILM_CELL)
+        near = far;
+    else if (shape->opening[i * m + far] != RF_FILM_CELL)
+        far = near;
+    const double first = depth_at(shape, of, near), second = depth_at(shape, of, far);
+    const rf_through land = through(self, RF_ALONG, H + first);
+    if (first == second)
+        return land;
+    return in_series(land, through(self, RF_ALONG, H + second), shape->width[far] / (shape->width[near] + shape->width[far]));
+}
+
+/* The conductance of the face before cell j of a line. */
+static double conducted_along(setting *self, size_t i, size_t j)
+{
+    const rf_oil_shape *shape = self->shape;
+    const size_t before = line_before(shape, i), q = i * (shape->nodes + 1) + j;
+    const double slope = self->slope ? self->slope->side[q] : 0.0;
+    double sum = taken(self, through_side(self, i, i, j), slope);
+    if (!shape->depth)
+        return sum * extent_of(shape, i) * shape->along[q];
+    sum *= 0.5 * shape->spacing[i];
+    sum += 0.5 * shape->spacing[before] * taken(self, through_side(self, i, before, j), slope);
+    return sum * shape->along[q];
+}
+
+/* What walls carry over a face per width. */
+static double carried(setting *self, size_t q)
+{
+    const double *dragged = self->shape->dragged, H = self->gap->face[q], share = dragged ? dragged[q] : 1.0;
+    const double slope = self->slope ? self->slope->face[q] : 0.0;
+    const rf_through beyond = through(self, RF_OF_DRAG, H);
+    if (self->by_rate)
+        return H * share + beyond.flow + self->rate * taken(self, beyond, 0.0);
+    return self->rate * ((self->slope ? slope : H) * share + taken(self, beyond, slope));
+}
+
+static void set_equations(setting *self, double storing, rf_oil_cells *cells, double *numbers)
+{
+    const rf_oil_shape *shape = self->shape;
+    const rf_oil_gap *gap = self->gap, *slope = self->slope;
+    const size_t n = shape->lines, m = shape->nodes, all = n * m;
+    const double covered = (shape->whole ? 2.0 : 1.0) * shape->slenderness, square = covered * covered;
+    double *wedge = numbers, *around = wedge + all, *store = around + all, *along = store + all;
+    self->growth = rf_growth(&shape->mobility, self->rate);
+    for (size_t q = 0, side = 0; q < all; ++q, ++side) {
+        const size_t i = q / m, j = q % m;
+        const double ease = shape->around ? shape->around[q] : 1.0;
+        const double pressed = taken(self, through(self, RF_AROUND, gap->face[q]), slope ? slope->face[q] : 0.0);
+        wedge[q] = carried(self, q) * shape->width[j];
+        around[q] = pressed / shape->spacing[i] * ease * shape->width[j];
+        store[q] = storing * (slope ? slope : gap)->line[q] * extent_of(shape, i) * shape->width[j];
+        if (j == 0)
+            along[side++] = conducted_along(self, i, 0) / square;
+        along[side] = conducted_along(self, i, j + 1) / square;
+    }
+    const rf_oil_cells set = {
+        n, m, shape->openings, wedge, around, store, along, NULL, shape->first_pressure, shape->last_pressure,
+        shape->opening, shape->fed, shape->flow, self->rate < 0.0,
+    };
+    *cells = set;
 }
 
 void rf_set_oil(const rf_oil_shape *shape, const rf_oil_gap *gap, const rf_oil_gap *slope, double rate, double storing,
                 rf_oil_cells *cells, double *numbers)
 {
-    const size_t n = shape->lines, m = shape->nodes, all = n * m;
-    const rf_oil_gap linear = slope ? *slope : *gap, none = {NULL, NULL, NULL}, by = slope ? *slope : none;
-    const double covered = (shape->whole ? 2.0 : 1.0) * shape->slenderness, square = covered * covered;
-    double *wedge = numbers, *around = wedge + all, *store = around + all, *along = store + all;
-    for (size_t q = 0, side = 0; q < all; ++q, ++side) {
-        const size_t i = q / m, j = q % m;
-        const double extent = extent_of(shape, i), ease = shape->around ? shape->around[q] : 1.0;
-        wedge[q] = rate * (shape->dragged ? linear.face[q] * shape->dragged[q] : linear.face[q]) * shape->width[j];
-        around[q] = cube(gap->face, by.face, q) / shape->spacing[i] * ease * shape->width[j];
-        store[q] = storing * linear.line[q] * extent * shape->width[j];
-        if (j == 0) {
-            along[side] = cube(gap->side, by.side, side) * extent / square * shape->along[side];
-            ++side;
-        }
-        along[side] = cube(gap->side, by.side, side) * extent / square * shape->along[side];
+    setting self = {.shape = shape, .gap = gap, .slope = slope, .rate = rate, .thickness = {NAN, NAN, NAN, NAN}};
+    set_equations(&self, storing, cells, numbers);
+}
+
+void rf_set_oil_by_rate(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, rf_oil_cells *cells, double *numbers)
+{
+    setting self = {.shape = shape, .gap = gap, .rate = rate, .by_rate = 1, .thickness = {NAN, NAN, NAN, NAN}};
+    set_equations(&self, 0.0, cells, numbers);
+}
+
+double rf_least_gap(const rf_oil_shape *shape, const double *e)
+{
+    const size_t n = shape->lines, m = shape->nodes;
+    double least = HUGE_VAL;
+    for (size_t q = 0; q < n * m; ++q) {
+        const size_t i = q / m, beyond = i + 1 < n ? q + m : q % m;
+        const int here = shape->opening[q] == RF_FILM_CELL, there = shape->opening[beyond] == RF_FILM_CELL;
+        const double *direction = shape->direction + i, depth = depth_at(shape, i, q % m);
+        if (here || there)
+            least = fmin(least, at(direction + 2 * n, n, wall_at(shape, AT_FACE, i), e) + depth);
+        if (here)
+            least = fmin(least, at(direction, n, wall_at(shape, BEHIND, i), e) + depth);
     }
-    const rf_oil_cells set = {
-        n, m, shape->openings, wedge, around, store, along, NULL, shape->first_pressure, shape->last_pressure,
-        shape->opening, shape->fed, shape->flow, rate < 0.0,
-    };
-    *cells = set;
+    return least;
 }
 
 void rf_hold_openings(const rf_oil_shape *shape, double *pressure, double *theta)

@@ -1,10 +1,12 @@
 /* A film that conserves its oil as it is made: its cells, its openings and its supply; and its equations in a gap.
 
-   Pressures count from that of the cavity, over 12 viscosity (radius/clearance)^2 [1/s]; flows and oil over
+   Mobility and recesses are as in grids/ring.h. Where the gap is filled in part, the factors of the mobility are those of
+   the full gap, and transport and shear are in proportion to the oil. Pressures count from that of the cavity, over 12 viscosity (radius/clearance)^2 [1/s]; flows and oil over
    clearance radius length. Lines go along half the length, from its middle, or along all of it. */
 #ifndef ROTORFILM_OIL_SHAPE_H
 #define ROTORFILM_OIL_SHAPE_H
 
+#include "../grids/mobility.h"
 #include "oil_cells.h"
 
 typedef struct rf_oil_shape {
@@ -22,12 +24,16 @@ typedef struct rf_oil_shape {
     double first_pressure, last_pressure; /* at the ends of the lines */
     double slenderness;                   /* length/diameter */
     int32_t whole;                        /* whether lines go along all of the length, both their ends being those of the film */
+    const double *wall;  /* 3 x N: gap of the centered journal on land, at faces, before lines and behind them, or NULL: 1 */
+    const double *depth; /* N x M: of the recess from a line to the next, or NULL: 0 */
+    rf_mobility mobility;
 } rf_oil_shape;
 
 /* Freedoms of the journal: its place e and the shift tau of its end against its middle, over the clearance. */
 enum { RF_OIL_FREEDOMS = 4 };
 
-/* The gap over the clearance: N x M at the lines and at the faces after them, N x (M + 1) at the faces along them. */
+/* The gap over the clearance: N x M at the lines and at the faces after them, N x (M + 1) at the faces along them, those
+   on land. The cell of a line at the edge of a recess has the mean of both sides. */
 typedef struct rf_oil_gap {
     const double *line, *face, *side;
 } rf_oil_gap;
@@ -42,7 +48,8 @@ static inline size_t rf_equation_numbers(const rf_oil_shape *shape)
     return shape->lines * (4 * shape->nodes + 1);
 }
 
-/* Set the gap `full` - (e + Z tau).n around a journal, full being 1; with 0 and a unit of (e, tau) it is a slope. */
+/* Set the gap `full` (A + D) - (e + Z tau).n around a journal, A being the wall and D the depth, full 1; with 0 and a unit
+   of (e, tau) it is a slope. */
 RF_EXPORT_LOOP void rf_circular_gap(const rf_oil_shape *shape, double full, const double *place, double *numbers);
 
 /* The gap in these numbers. */
@@ -52,6 +59,13 @@ rf_oil_gap rf_gap_in(const rf_oil_shape *shape, const double *numbers);
    oil with a speed of `rate`, theta stores at a rate of `storing`. */
 RF_EXPORT_LOOP void rf_set_oil(const rf_oil_shape *shape, const rf_oil_gap *gap, const rf_oil_gap *slope, double rate,
                                double storing, rf_oil_cells *cells, double *numbers);
+
+/* The same by the rate. */
+RF_EXPORT_LOOP void rf_set_oil_by_rate(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, rf_oil_cells *cells,
+                                       double *numbers);
+
+/* The least gap at e over all lines and faces with film. */
+double rf_least_gap(const rf_oil_shape *shape, const double *e);
 
 /* Size of a cell, or of the half of it in half the film: extent times width. */
 double rf_cell_area(const rf_oil_shape *shape, size_t q);

@@ -50,11 +50,22 @@ static void close_traveler(traveler *self)
     free(self->block);
 }
 
+/* The least film in clearances, of a bore from its center. */
+static double least_film(const rf_oil_film_si *film, const double *motion)
+{
+    const double place[2] = {motion[0] / film->clearance, motion[1] / film->clearance};
+    return film->shape.wall ? rf_least_gap(&film->shape, place) : 1.0 - hypot(place[0], place[1]);
+}
+
 static int require_inside(const rf_oil_film_si *film, const double *motion, double t, rf_message *why)
 {
-    const double e = hypot(motion[0], motion[1]);
-    if (e < film->clearance)
+    const double e = hypot(motion[0], motion[1]), least = film->clearance * least_film(film, motion);
+    if (film->shape.wall ? least > 0.0 : e < film->clearance)
         return RF_OK;
+    if (film->shape.wall)
+        return rf_say(why, RF_AT_WALL,
+                      "the journal must leave a film on every pad, got %.6g m at t = %.9g s (x = %.9g, y = %.9g)", least, t,
+                      motion[0], motion[1]);
     return rf_say(why, RF_AT_WALL,
                   "the journal must stay inside the clearance %.9g m, got an eccentricity of %.6g m at t = %.9g s "
                   "(x = %.9g, y = %.9g)",
@@ -165,6 +176,8 @@ static void set_between(const double *begin, const double *end, double dt, doubl
 /* One inner step, from a film that is near that at its end. */
 static int inner_step(traveler *self, const double *motion, double dt, const double *near, int sweeps, int64_t *solutions)
 {
+    if (!(least_film(self->film, motion) > 0.0))
+        return RF_STUCK;
     const rf_oil_gap gap = gap_of(self, motion);
     const rf_oil_past past = {row(self, 0), row(self, 1), self->block[RF_OIL_LENGTH]};
     const double *theta = near + RF_OIL_CELLS + 3 * self->all, *full = theta + self->all;

@@ -196,27 +196,15 @@ static void add(const sum *to, double value, double slope, double grown)
 /* Add a conductance of so much width per length at a thickness. */
 static void conduct(const rf_cells *cells, rf_factor way, double H, double share, const sum *to)
 {
-    const rf_mobility *mobility = &cells->ring->mobility;
-    double flow = H * H * H, by = 3.0 * H * H, eased = 0.0;
-    if (mobility->cells > 0) {
-        const double factor = rf_ease(mobility, way, cells->growth * H, &eased);
-        eased *= cells->growth * flow;
-        by = factor * by + eased;
-        flow *= factor;
-    }
-    add(to, share * flow, share * by, share * eased * H);
+    const rf_through of = rf_pressed(&cells->ring->mobility, way, cells->growth, H);
+    add(to, share * of.flow, share * of.slope, share * of.grown);
 }
 
 /* Add what walls drag over so much width of a depth beyond the smooth H. */
 static void drag(const rf_cells *cells, double H, double depth, double width, const sum *to)
 {
-    const rf_mobility *mobility = &cells->ring->mobility;
-    const double thick = H + depth;
-    double factor = 1.0, eased = 0.0;
-    if (mobility->drags)
-        factor = rf_ease(mobility, RF_OF_DRAG, cells->growth * thick, &eased);
-    eased *= cells->growth * thick;
-    add(to, width * (depth + (factor - 1.0) * thick), width * (factor - 1.0 + eased), width * eased * thick);
+    const rf_through of = rf_dragged_beyond(&cells->ring->mobility, cells->growth, H + depth);
+    add(to, width * (depth + of.flow), width * of.slope, width * of.grown);
 }
 
 /* The same of all nodes of an even face, per width. */

@@ -26,18 +26,10 @@ double rf_ease(const rf_mobility *mobility, rf_factor factor, double X, double *
     return value;
 }
 
-static const rf_table *find(const rf_tables *tables, const char *name)
-{
-    for (size_t i = 0; i < tables->count; ++i)
-        if (strcmp(tables->list[i].name, name) == 0)
-            return tables->list + i;
-    return NULL;
-}
-
 int rf_take_mobility(rf_mobility *mobility, const rf_tables *tables, rf_message *why)
 {
     const rf_mobility none = {NULL, 0, 0, 1.0, 1.0, 1.0, 0.0, 0.0};
-    const rf_table *factors = find(tables, "mobility");
+    const rf_table *factors = rf_seek_table(tables, "mobility");
     *mobility = none;
     if (!factors)
         return RF_OK;

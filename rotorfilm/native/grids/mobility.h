@@ -27,6 +27,41 @@ double rf_growth(const rf_mobility *mobility, double rate);
 /* A factor at X, which is not 0 cells, and its derivative by X. */
 double rf_ease(const rf_mobility *mobility, rf_factor factor, double X, double *slope);
 
+/* What oil of a thickness lets through, and its derivatives by the thickness and by the logarithm of X/H. */
+typedef struct rf_through {
+    double flow, slope, grown;
+} rf_through;
+
+/* What pressure drives around or along the bearing: H^3 times the factor at X = growth H. */
+static inline rf_through rf_pressed(const rf_mobility *mobility, rf_factor way, double growth, double H)
+{
+    rf_through found = {H * H * H, 3.0 * H * H, 0.0};
+    if (mobility->cells > 0) {
+        double eased;
+        const double factor = rf_ease(mobility, way, growth * H, &eased);
+        eased *= growth * found.flow;
+        found.slope = factor * found.slope + eased;
+        found.flow *= factor;
+        found.grown = eased * H;
+    }
+    return found;
+}
+
+/* What the walls drag in the mean flow beyond H. */
+static inline rf_through rf_dragged_beyond(const rf_mobility *mobility, double growth, double H)
+{
+    rf_through found = {0.0, 0.0, 0.0};
+    if (mobility->drags) {
+        double eased;
+        const double factor = rf_ease(mobility, RF_OF_DRAG, growth * H, &eased);
+        eased *= growth * H;
+        found.flow = (factor - 1.0) * H;
+        found.slope = factor - 1.0 + eased;
+        found.grown = eased * H;
+    }
+    return found;
+}
+
 /* Take a mobility from the table `mobility` (4 x n) and the numbers `mobility_scale` (scale, last node, fixed X/H,
    density), where they stay, or none where there are no such tables; RF_INVALID, with the message. */
 int rf_take_mobility(rf_mobility *mobility, const rf_tables *tables, rf_message *why);

@@ -56,21 +56,13 @@ static int take_map(model *m, const rf_tables *tables, rf_message *why)
                                                                     : RF_INVALID;
 }
 
-static int is_mapped(const rf_tables *tables)
-{
-    for (size_t k = 0; k < tables->count; ++k)
-        if (strcmp(tables->list[k].name, "coefficients") == 0)
-            return 1;
-    return 0;
-}
-
 static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
     model *m = kernel;
     *sizes = RF_HEATED_SIZES;
     if (rf_take_oil(&m->heated, tables, why) != RF_OK)
         return RF_INVALID;
-    return is_mapped(tables) ? take_map(m, tables, why) : take_short(m);
+    return rf_seek_table(tables, "coefficients") ? take_map(m, tables, why) : take_short(m);
 }
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)

@@ -26,6 +26,9 @@ typedef struct rf_tables {
     size_t count;
 } rf_tables;
 
+/* The table of this name, or NULL. */
+const rf_table *rf_seek_table(const rf_tables *tables, const char *name);
+
 /* The table of this name if it has so many axes; NULL, with the message written, otherwise. */
 const rf_table *rf_find_table(const rf_tables *tables, const char *name, uint32_t axes, rf_message *why);
 

@@ -44,5 +44,6 @@ RF_KERNEL(tabulated, RF_ROTORFILM_STATES, linear)
 RF_KERNEL(thrust, RF_ROTORFILM_GRIDS, thrust)
 RF_KERNEL(tilted_journal, RF_ROTORFILM_HEAT, journal)
 RF_KERNEL(tilting_journal, RF_ROTORFILM_PADS, tilting_journal)
+RF_KERNEL(turbulent_journal, RF_ROTORFILM_GRIDS | RF_ROTORFILM_GRID_SYSTEMS, journal)
 #undef RF_KERNEL
 #endif

@@ -18,19 +18,23 @@ const rf_kernel_type *rf_find_kernel(const char *name)
     return NULL;
 }
 
+const rf_table *rf_seek_table(const rf_tables *tables, const char *name)
+{
+    for (size_t i = 0; i < tables->count; ++i)
+        if (strcmp(tables->list[i].name, name) == 0)
+            return tables->list + i;
+    return NULL;
+}
+
 const rf_table *rf_find_table(const rf_tables *tables, const char *name, uint32_t axes, rf_message *why)
 {
-    for (size_t i = 0; i < tables->count; ++i) {
-        const rf_table *table = tables->list + i;
-        if (strcmp(table->name, name) != 0)
-            continue;
-        if (table->axes == axes)
-            return table;
-        rf_say(why, RF_INVALID, "table %s must have %u axes, got %u", name, (unsigned)axes,
-               (unsigned)table->axes);
-        return NULL;
-    }
-    rf_say(why, RF_INVALID, "tables must contain %s, got %zu others", name, tables->count);
+    const rf_table *table = rf_seek_table(tables, name);
+    if (table && table->axes == axes)
+        return table;
+    if (table)
+        rf_say(why, RF_INVALID, "table %s must have %u axes, got %u", name, (unsigned)axes, (unsigned)table->axes);
+    else
+        rf_say(why, RF_INVALID, "tables must contain %s, got %zu others", name, tables->count);
     return NULL;
 }
 

@@ -19,7 +19,7 @@ typedef struct rf_complex {
 /* A rotor x' = A x + B u in modes, u = forces at the journals and the unbalance's pair. */
 typedef struct rf_modes {
     int32_t modes;
-    int32_t channels;         /* of u: two for each journal, two of the unbalance and, if it shakes, of the ground */
+    int32_t channels;         /* of u: two for each journal, two of the unbalance, those of an excitation */
     int32_t rows;             /* x, y, vx, vy of each journal */
     const rf_complex *values; /* modes */
     const rf_complex *push;   /* modes x channels */

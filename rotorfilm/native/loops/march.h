@@ -24,11 +24,11 @@ typedef struct rf_spin_rates {
     const double *rest;   /* 2 modes: at the rest about which motion is counted */
 } rf_spin_rates;
 
-/* Acceleration of the ground over time, linear between the times and none before and after them. */
-typedef struct rf_ground {
-    int32_t count; /* 0: it is still, and no channels are its */
-    const double *times, *x, *y;
-} rf_ground;
+/* What excites the rotor over time, as the ground that shakes: linear between the times, 0 before and after. */
+typedef struct rf_excitation {
+    int32_t count, rows; /* times and channels; 0 for none */
+    const double *times, *values; /* values: rows x count */
+} rf_excitation;
 
 #define RF_SLOTS 24   /* lengths of steps whose tables are kept */
 #define RF_STEPS 400  /* lengths of steps: the longest over 2^(k/4) */
@@ -48,7 +48,7 @@ typedef struct rf_march {
     rf_journals journals;
     rf_speeds profile;
     rf_spin_rates spin;
-    rf_ground ground;
+    rf_excitation excitation;
     const double *scales; /* 4 n: make x, y, vx, vy of each journal dimensionless */
     double longest, shortest; /* step [s] */
     double rtol, newton;      /* local error, and what Newton's method leaves of it */

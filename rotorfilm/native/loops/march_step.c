@@ -51,26 +51,26 @@ static double unbalance(const rf_speeds *profile, double t, double pair[2])
     return w;
 }
 
-static void set_ground(const rf_ground *ground, double t, double pair[2])
+static void set_excitation(const rf_excitation *given, double t, double *out)
 {
-    int32_t k = 0, beyond = ground->count - 1;
-    pair[0] = pair[1] = 0.0;
-    if (!(t >= ground->times[0] && t < ground->times[beyond]))
-        return;
-    while (beyond - k > 1) {
+    int32_t k = 0, beyond = given->count - 1;
+    const int inside = t >= given->times[0] && t < given->times[beyond];
+    while (inside && beyond - k > 1) {
         const int32_t middle = (k + beyond) / 2;
-        *(ground->times[middle] <= t ? &k : &beyond) = middle;
+        *(given->times[middle] <= t ? &k : &beyond) = middle;
     }
-    const double part = (t - ground->times[k]) / (ground->times[beyond] - ground->times[k]);
-    pair[0] = ground->x[k] + part * (ground->x[beyond] - ground->x[k]);
-    pair[1] = ground->y[k] + part * (ground->y[beyond] - ground->y[k]);
+    const double part = (t - given->times[k]) / (given->times[beyond] - given->times[k]);
+    for (int32_t row = 0; row < given->rows; ++row) {
+        const double *values = given->values + row * given->count;
+        out[row] = inside ? values[k] + part * (values[beyond] - values[k]) : 0.0;
+    }
 }
 
 /* What acts besides the films at a time, in the channels after theirs; the speed. */
 static double set_given(const rf_march *march, double t, double *given)
 {
-    if (march->ground.count > 0)
-        set_ground(&march->ground, t, given + 2);
+    if (march->excitation.count > 0)
+        set_excitation(&march->excitation, t, given + 2);
     return unbalance(&march->profile, t, given);
 }
 

@@ -16,6 +16,7 @@ static const rf_kernel_type *const KINDS[] = {
     &rf_reynolds_journal_type,
     &rf_pressure_dam_type,
     &rf_lobed_journal_type,
+    &rf_turbulent_journal_type,
 #endif
 };
 enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS };

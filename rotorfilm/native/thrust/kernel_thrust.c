@@ -72,10 +72,7 @@ static int fits(const rf_table *angle, const rf_table *radius, const rf_table *p
 static int take_film(const rf_tables *tables, rf_thrust *bearing, rf_message *why)
 {
     rf_film_table *to = &bearing->table;
-    int present = 0;
-    for (size_t k = 0; k < tables->count; ++k)
-        present = present || strcmp(tables->list[k].name, "film") == 0;
-    if (!present)
+    if (!rf_seek_table(tables, "film"))
         return RF_OK;
     const rf_table *film = rf_find_table(tables, "film", 3, why);
     const double *n = film ? rf_numbers(tables, "ranges", RANGES, why) : NULL;

@@ -327,5 +327,6 @@ def test_a_film_across_which_eddies_mix_has_no_layers():
     bearing = rf.JournalBearing(**SIZE, oil=OIL, cooling=COOLING, turbulence=Turbulence())
     with pytest.raises(InputError, match="eddies mix"):
         rf.HeatedFilm(bearing=bearing, profile=rf.bearings.LayeredTemperature(8))
-    with pytest.raises(InputError, match="turbulence=None for JFOFilm"):
-        rf.JFOFilm(bearing=bearing)
+    fed = replace(bearing, grooves=(rf.Groove(center=1.0, width=0.3),))
+    with pytest.raises(InputError, match="turbulence=None for HeatedJFOFilm"):
+        rf.bearings.HeatedJFOFilm(film=rf.JFOFilm(bearing=fed))

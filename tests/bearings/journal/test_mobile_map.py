@@ -1,7 +1,9 @@
 """The map of a turbulent film over the Reynolds number: its grid, differences, identities, bad input."""
 
+import zipfile
 from dataclasses import replace
 
+import fmpy
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -11,6 +13,7 @@ from rotorfilm import InputError, ValidityWarning
 from rotorfilm.bearings import MobileMapFilm, mobility_of
 from rotorfilm.bearings.journal import ExtrapolatedFilm, ReynoldsFilm
 from rotorfilm.bearings.journal.mobile_map import MobileMapTable
+from rotorfilm.fmu import check_fmu, extracted, instantiated
 
 SIZE = {"radius": 0.25, "length": 0.4, "clearance": 5e-4, "viscosity": 0.0163}
 PLACE, VELOCITY, SPEED = np.array([1.1e-4, -1.5e-4]), np.array([0.01, 0.02]), 250.0
@@ -107,3 +110,52 @@ def test_impossible_films_are_refused():
         rf.JournalBearing(**SIZE, film=FILM, grooves=(rf.Groove(center=0.0, width=0.3),))
     with pytest.raises(InputError, match="must be that of a bearing"):
         FILM.force(np.array([0.1, 0.2]), np.array([1.0, 0.0]), 0.8)
+
+
+INPUTS = ("x", "y", "vx", "vy", "speed")
+
+
+@pytest.mark.parametrize("version", ["2.0", "3.0"])
+def test_native_fmus_have_the_forces_of_python_to_the_last_bit(bearing, version, tmp_path):
+    """Among them at a clearance and a viscosity of their own, which change the Reynolds number."""
+    path = rf.export_fmu(bearing, tmp_path / "turbulent.fmu", version, component="b", start={"speed": 100.0})
+    assert bearing.native().kernel == "turbulent_journal"
+    names = zipfile.ZipFile(path).namelist()
+    assert not any(name.endswith(".py") for name in names)
+    random = np.random.default_rng(3)
+    with extracted(path) as (description, folder):
+        places = {v.name.removeprefix("b."): v.valueReference for v in description.modelVariables}
+        instance = instantiated(description, folder, False)
+        instance.initialize([places[name] for name in INPUTS], [0.0, -1e-4, 0.0, 0.0, SPEED])
+        for step, sizes in enumerate(({}, {"clearance": 6e-4, "viscosity": 0.03})):
+            instance.set([places[name] for name in sizes], list(sizes.values()))
+            own = replace(bearing, **sizes)
+            for k in range(6):
+                x, y = random.uniform(-2e-4, 2e-4, 2)
+                u = [x, y, *random.normal(scale=0.01, size=2), random.uniform(-400.0, 400.0)]
+                instance.set([places[name] for name in INPUTS], u)
+                instance.step(0.01 * (6 * step + k), 0.01)
+                found = instance.get([places["force_x"], places["force_y"]])
+                assert list(found) == own.output(0.0, (), np.array(u)).tolist()
+        instance.close()
+
+
+@pytest.mark.parametrize("version", ["2.0", "3.0"])
+def test_native_fmus_pass_all_checks_and_know_their_length(bearing, version, tmp_path, capsys):
+    start = {"speed": SPEED, "y": -1e-4}
+    path = rf.export_fmu(bearing, tmp_path / "turbulent.fmu", version, component="b", start=start)
+    assert [item.check for item in check_fmu(path) if item.passed is False] == []
+    with pytest.raises(fmpy.fmi1.FMICallException, match="ExitInitializationMode"):
+        fmpy.simulate_fmu(str(path), start_values={"b.length": 0.5}, stop_time=0.01)
+    assert "length/diameter must be that of the map of the film, 0.8, got 1" in capsys.readouterr().out
+
+
+def test_a_rotor_on_the_map_is_one_kernel_and_runs_as_in_python(bearing, tmp_path):
+    rotor = rf.RigidRotor(mass=3e4, speed=SPEED, gravity=(0.0, -9.80665), position=(1e-4, -2e-4))
+    system = rf.mount(rotor, {"": bearing})
+    assert system.native().kernel == "rotor_system"
+    path = rf.export_fmu(system, tmp_path / "system.fmu", "2.0", stop_time=0.02, step_size=0.002)
+    told = fmpy.simulate_fmu(str(path), stop_time=0.02, step_size=0.002, output_interval=0.002)
+    run = rf.simulate(rotor, bearing, duration=0.02, samples=11, rtol=1e-10)
+    name = next(name for name in told.dtype.names if name == "x" or name.endswith(".x"))
+    assert_allclose(told[name], run["x"], rtol=1e-5)
