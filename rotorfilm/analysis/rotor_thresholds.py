@@ -312,8 +312,8 @@ class _Stability(NamedTuple):
                 seen[speed] = self.growth(speed)
             return seen[speed].rate(k) - NEUTRAL
 
-        ends = list(seen)[:2]
-        return float(brentq(excess, *ends, rtol=rtol))
+        low, high = list(seen)[:2]
+        return float(brentq(excess, low, high, rtol=rtol))
 
     def _followed(self, k: int, start: _Growth, root: float) -> Vanishing | None:
         """Return where the motion that is growth number k near a root has none, by secants; None if nowhere.

@@ -160,7 +160,8 @@ def lacked(value: object, protocol: Any) -> list[str]:
 
     The protocol's own check asks every property of the value, and some of them are slow.
     """
-    return [member for member in lacking(type(value), protocol) if not hasattr(value, member)]
+    cls: Any = type(value)
+    return [member for member in lacking(cls, protocol) if not hasattr(value, member)]
 
 
 @cache
