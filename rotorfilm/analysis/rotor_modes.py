@@ -389,8 +389,8 @@ def _frequency_dependent_part(
     alone = [k for k in range(len(starts)) if k not in partner]
     roundings = np.zeros(len(own))
     roundings[list(partner.values())] = rounded[list(partner)]
-    begun, vectors = np.concatenate([starts[alone], own]), np.hstack([shapes[:, alone], ways])
-    given = zip(begun, vectors.T, [*rounded[alone], *roundings], strict=True)
+    begun, ways_of_all = np.concatenate([starts[alone], own]), np.hstack([shapes[:, alone], ways])
+    given = zip(begun, ways_of_all.T, [*rounded[alone], *roundings], strict=True)
     for k, (start, shape, rounding) in enumerate(given):
         if start.imag > reach:
             continue
