@@ -108,12 +108,14 @@ if TYPE_CHECKING:
         Campbell as Campbell,
         CriticalSpeed as CriticalSpeed,
         RotorModes as RotorModes,
-        RotorThreshold as RotorThreshold,
-        StabilityChange as StabilityChange,
         campbell as campbell,
         critical_speeds as critical_speeds,
         resonant_speeds as resonant_speeds,
         rotor_modes as rotor_modes,
+    )
+    from .rotor_thresholds import (
+        RotorThreshold as RotorThreshold,
+        StabilityChange as StabilityChange,
         rotor_threshold as rotor_threshold,
         stability_changes as stability_changes,
     )

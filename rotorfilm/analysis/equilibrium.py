@@ -494,7 +494,8 @@ def _target(
     call, x, y = compiled_force(film), float(load[0]), float(load[1])
     near = rest_place(film, (x, y), speed) if told else None
     used = call or _called_back(film)
-    struct = structure("rf_static_target")(
+    kind: Any = structure("rf_static_target")
+    struct = kind(
         used.address,
         used.data,
         film.clearance,
