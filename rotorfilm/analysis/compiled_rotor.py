@@ -50,15 +50,18 @@ from ..rotors import (
     TimeExcitedRotor,
     mount,
 )
+from ..rotors.profile import Turning
 from ..rotors.structure import (
     NOMINAL_LENGTH,
     MatrixRotor,
     Structure,
+    freedom_rows,
     mean_plane,
     solved_equations,
     station_name,
 )
 from .modal_reduction import Condensed, models
+from .rotor_matrices import FASTER, unbalanced
 
 # Forces behind addresses (`native.film_call`): a reaction without a compiled one is called back in Python,
 # slower, with the same result.
@@ -491,7 +494,7 @@ def compiled_form(rotor: Dynamic, reaction: Any) -> MountedRotor | None:
     reaction : Reaction
         The bearing of that.
     """
-    if not _is_linear(rotor) or not _is_compiled(reaction):
+    if not is_linear(rotor) or not _is_compiled(reaction):
         return None
     mounted = mount(rotor, {"": reaction})
     if not all(map(_is_compiled, mounted.all_bearings.values())):
@@ -511,7 +514,7 @@ def takes_forces(rotor: Dynamic, bearings: Iterable[Any]) -> bool:
     mounted = rotor.all_bearings.values() if isinstance(rotor, MountedRotor) else ()
     every = (*bearings, *mounted)
     massless = all(not film.states and inertial(film) is None for film in every)
-    return massless and _is_linear(rotor) and all(freedoms_of(film) == PLANAR for film in every)
+    return massless and is_linear(rotor) and all(freedoms_of(film) == PLANAR for film in every)
 
 
 def _is_compiled(bearing: Any) -> bool:
@@ -519,7 +522,7 @@ def _is_compiled(bearing: Any) -> bool:
     return planar and inertial(bearing) is None and compiled_force(bearing) is not None
 
 
-def _is_linear(rotor: Dynamic) -> bool:
+def is_linear(rotor: Dynamic) -> bool:
     """Return whether a rotor, in bearings or not, has the equations of its matrices."""
     bare = rotor.bare if isinstance(rotor, MountedRotor) else rotor
     bare = bare.rotor if isinstance(bare, TimeExcitedRotor) else bare
@@ -535,24 +538,26 @@ def _is_linear(rotor: Dynamic) -> bool:
 FREQUENCY = 4.0
 """Frequency of the fewest shapes / largest speed."""
 
-FURTHER = 2
-"""Doublings of the frequency from one set of shapes to the next: one may add shapes that nothing excites."""
+SUDDEN = 2.0
+"""Ratio of the response of a shape to a force that begins at once to that to a slow one."""
 
 
-def starts(mounted: MountedRotor, state: Array, *, whole: bool) -> Iterator[tuple[MountedRotor, Array, bool]]:
+def starts(
+    mounted: MountedRotor, state: Array, *, whole: bool
+) -> Iterator[tuple[MountedRotor, Array, NeglectedMotion | None]]:
     """Yield a rotor in ever more of its shapes, and whole in the end or at once.
 
-    With each come its state at t = 0 and whether more shapes may follow.
+    With each come its state at t = 0, and what the shapes do not show; None for the whole rotor.
     """
     rotor = mounted.bare
     if not whole and isinstance(rotor, FlexibleRotor) and rotor.assembly.hysteresis is None:
-        for k, model in enumerate(models(rotor, FREQUENCY * rotor.nominal_speed)):
+        for model in models(rotor, FREQUENCY * rotor.nominal_speed):
             if model.space is None:
                 break
-            if k % FURTHER == 0:
-                small = MatrixRotor(rotor, model.structure)
-                yield mount(small, mounted.all_bearings), _within(model, state), True
-    yield mounted, state, False
+            small = mount(MatrixRotor(rotor, model.structure), mounted.all_bearings)
+            begun = _within(model, state)
+            yield small, begun, neglected_motion(model, take_apart(small), state, begun)
+    yield mounted, state, None
 
 
 def _within(model: Condensed, state: Array) -> Array:
@@ -562,13 +567,78 @@ def _within(model: Condensed, state: Array) -> Array:
     return np.concatenate([shapes.T @ (mass @ part) for part in np.split(state, 4)])
 
 
-def largest_difference(parts: Parts, one: Trajectory, other: Trajectory) -> float:
-    """Return by how much journals of two runs are apart, in clearances; inf where not both go as far."""
-    if len(one.time) != len(other.time):
-        return np.inf
-    worst = 0.0
-    for name, length in zip(parts.names, parts.lengths, strict=True):
-        for axis in "xy":
-            key = station_name(name, axis)
-            worst = max(worst, float(np.abs(one[key] - other[key]).max(initial=0.0)) / float(length))
-    return worst
+class NeglectedMotion(NamedTuple):
+    """How the shapes that a run neglects answer what its shapes do not balance, at the journals.
+
+    The forces of the bearings in the run, the unbalance and the weight act on the whole rotor too. What the
+    motion in the shapes leaves of them bends the neglected shapes, as slow forces do.
+
+    Attributes
+    ----------
+    parts : Parts
+        The rotor in its shapes.
+    by_motion : ndarray, shape (2 n_bearings, 5 n)
+        Displacement of the journals per acceleration, velocity, velocity times speed, place, place times
+        speed in the n shapes.
+    by_force : ndarray, shape (2 n_bearings, 2 n_bearings + 3)
+        Displacement per force on the journals, per unit of the unbalance's acceleration and by the weight.
+    begun : ndarray, shape (n_bearings,) [m]
+        Displacement of the journals at t = 0, at most, by what of the initial state the shapes do not have.
+    """
+
+    parts: Parts
+    by_motion: Array
+    by_force: Array
+    begun: Array
+
+    def largest(self, run: Trajectory, states: Array) -> float:
+        """Return the largest displacement of a journal at the times of a run, in clearances.
+
+        Parameters
+        ----------
+        run : Trajectory
+            Run of the rotor in its shapes.
+        states : ndarray, shape (n_times, 2 n)
+        """
+        parts, time = self.parts, run.time
+        model, profile = solved_equations(parts.structure), parts.profile
+        speed = np.array([profile.speed(t) for t in time])[:, None]
+        names = [station_name(name, f"force_{axis}") for name in parts.names for axis in "xy"]
+        shaft = Turning()
+        shaft.speed = profile
+        turning = np.array([shaft.rotating(t) for t in time]).reshape(-1, 2)
+        forces = np.column_stack([*(run[name] for name in names), turning, np.ones(len(time))])
+        place, velocity = np.hsplit(states, 2)
+        places = [2 * parts.structure.stations.index(name) + k for name in parts.names for k in (0, 1)]
+        pushed = forces @ np.column_stack([model.push[:, places], model.unbalance, model.weight]).T
+        rates = states @ model.steady.T + speed * (states @ model.by_speed.T) + pushed
+        motion = np.hstack([rates[:, place.shape[1] :], velocity, speed * velocity, place, speed * place])
+        away = (forces @ self.by_force.T - motion @ self.by_motion.T).reshape(len(time), -1, 2)
+        away = np.hypot(away[..., 0], away[..., 1]).max(axis=0, initial=0.0)
+        return float(((SUDDEN * FASTER * away + self.begun) / parts.lengths).max())
+
+
+def neglected_motion(model: Condensed, parts: Parts, state: Array, begun: Array) -> NeglectedMotion:
+    """Return how neglected shapes move the journals of a rotor in a model of it.
+
+    Parameters
+    ----------
+    model : Condensed
+    parts : Parts
+        The rotor in this model.
+    state, begun : ndarray, shape (2 N,), (2 n,)
+        Initial state of the whole rotor and of the model.
+    """
+    assert model.space is not None
+    whole, shapes = model.whole, model.lifted(np.eye(len(model.structure.weight)))
+    journals = np.vstack([freedom_rows(whole, name) for name in parts.names])
+    matrices = whole.mass, whole.damping, whole.gyroscopic, whole.stiffness, whole.circulation
+    columns = [*(matrix @ shapes for matrix in matrices), journals.T, whole.unbalance, whole.weight[:, None]]
+    heavy = whole.mass @ shapes
+    left = [unbalanced(part, shapes, heavy) for part in (journals.T, np.hstack(columns))]
+    found = left[0].T @ model.answer(left[1])
+    split = len(matrices) * shapes.shape[1]
+    missing = zip(np.split(state, 2), np.split(begun, 2), strict=True)
+    place, velocity = (journals @ (full - model.lifted(some)) for full, some in missing)
+    size = np.hypot(*place.reshape(-1, 2).T) + np.hypot(*velocity.reshape(-1, 2).T) / model.space.cut
+    return NeglectedMotion(parts, found[:, :split], found[:, split:], size)

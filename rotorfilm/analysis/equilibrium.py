@@ -479,7 +479,8 @@ class StaticTarget(NamedTuple):
         """Raise what the film fails with at a point of the search."""
         if self.call.raised:
             raise self.call.raised[0]
-        prepared_tangent(self.film)(*point.position, 0.0, 0.0, self.struct.speed)
+        x, y = point.position
+        prepared_tangent(self.film)(x, y, 0.0, 0.0, self.struct.speed)
 
 
 def _target(

@@ -353,6 +353,11 @@ def _part(model: Condensed, at: RotorEquilibrium, band: Band, known_to: float) -
     return values[order].astype(complex), shapes[:, order].astype(complex), error, rounded[order]
 
 
+FURTHEST = 4.0
+"""Size of exponents with K and C of one frequency, over the highest frequency, beyond which those that decay
+are not followed to K(s): where they end is beyond it too."""
+
+
 def _frequency_dependent_part(
     model: Condensed,
     at: RotorEquilibrium,
@@ -367,10 +372,14 @@ def _frequency_dependent_part(
     """
     found: list[tuple[complex, np.ndarray, float]] = []
     error, (starts, shapes, rounded) = 0.0, next_to
-    own, ways = joined_whirls(model.structure, at)
-    known = all(hasattr(film.dynamic_stiffness, "at") for film in frequency_dependent_films(at).values())
+    told = [hasattr(film.dynamic_stiffness, "at") for film in frequency_dependent_films(at).values()]
+    # Without states that are known the joined system is that of the starts.
+    own, ways = joined_whirls(model.structure, at) if any(told) else (starts[:0], shapes[:, :0])
+    known = all(told)
     given = zip([*starts, *own], np.hstack([shapes, ways]).T, [*rounded, *np.zeros(len(own))], strict=True)
     for k, (start, shape, rounding) in enumerate(given):
+        if start.real < 0.0 and abs(start) > FURTHEST * known_to:
+            continue
         try:
             one = frequency_dependent_motion(model.structure, at, frequency, complex(start), shape)
         except ConvergenceError:

@@ -62,7 +62,7 @@ def read_order(where: str, value: Any) -> tuple[int, int | None]:
 NODES = counts(("over", "turning", "moving"), MAP_NODES)
 """Reader of the nodes of a map with openings."""
 
-RUPTURES: dict[str, Callable[[], Keyed]] = {
+RUPTURES: dict[str, Callable[[], Keyed[Any]]] = {
     "fixed": lambda: keys_of(journal.FixedArc, "start", "extent"),
     "rotating": lambda: keys_of(journal.RotatingArc),
     "reynolds": lambda: keys_of(journal.ReynoldsArc, "start"),

@@ -12,6 +12,7 @@ from rotorfilm import SceneError, ValidityWarning
 from rotorfilm.bearings import Turbulence
 from rotorfilm.bearings.films import turbulence
 from rotorfilm.bearings.journal.full_stress import eddy_flows, full_stress_forces
+from rotorfilm.scenes.rotor_runs import after_loss, run_rotor
 from rotorfilm.scenes.scene import parse_scene
 
 TURBINE = """
@@ -275,3 +276,23 @@ def test_the_laminar_warning_of_a_film_is_given_once_in_an_answer():
         asked.ask()
     assert sum("beyond the Reynolds number" in str(one.message) for one in said) == 1
     assert all(one.filename == __file__ for one in said)
+
+
+def test_a_run_on_laminar_films_above_the_onset_knows_what_turbulence_does_to_its_peak():
+    further = '[excitation]\nkind = "blade_loss"\nunbalance = 0.5\nnode = 1\nstart = 0.02\n'
+    further += QUESTION.format(quantity="peak_displacement", tolerance=20)
+    text = SHAFT.replace("unbalances = [{{ node = 1, unbalance = 0.1 }}]\n", "")
+    text = text.replace('speed = "{speed} rpm"', 'speed = "{speed} rpm"\nduration = "0.1 s"')
+    own, laminar = (
+        parse_scene(text.format(size=SIZE, choice=one, speed=3000, warm="0.0156 Pa s") + further, "case.toml")
+        for one in ('"auto"', '"none"')
+    )
+    answer = quietly(laminar.ask)
+    assert not answer.met
+    assert "; turbulence, " in answer.rungs[0].method
+    peaks = [
+        max(quietly(lambda one=one: run_rotor(after_loss(one))).peaks.values()) for one in (laminar, own)
+    ]
+    truth = abs(peaks[0] / peaks[1] - 1.0)
+    assert truth > 0.01
+    assert 0.5 * truth < answer.error_estimate < 2.0 * truth
