@@ -186,7 +186,7 @@ def conserved_oil(scene: Scene, question: Any, films: Sequence[FilmCandidate], l
     """Return a ladder by Reynolds rupture whose estimates count the conservation of the oil.
 
     On them stand the rungs that conserve it, unless the scene names the film, or the question has none. Of
-    bearings of pads a remark has what it changes.
+    lobed and pressure-dam bearings a remark has what it changes.
     """
     table: Any = scene.film_table
     if not isinstance(table, ConservingTable):
