@@ -143,7 +143,7 @@ class RunWhirl(Readable):
     whirl_radius : float [m]
         Radius of the whirl in the last window, of equal mean square.
     growth_rate : float [1/s]
-        Growth of its logarithm; negative where it dies out.
+        Growth of its logarithm; negative where it dies out, 0 where nothing moves.
     whirl_ratio : float or None [1]
         Frequency / speed of the strongest line, negative for backward whirl; None without whirl.
     station : str
@@ -363,6 +363,7 @@ def run_whirl(run: Trajectory, station: str = "", speed: Speed = None) -> RunWhi
     seen = f"{sizes[-1] * 1e6:.3g} um at {ratio:.3g} of the speed"
     if size <= NOISE**2 + 1e-9 * float(np.abs(whirl).max()):
         verdict = "nothing moves the rotor from its rest, so that this run does not show whether whirl grows"
+        rate, ratio = 0.0, None
     elif grows and sizes[-1] > NOISE * size:
         verdict = f"grows at {rate:.3g} 1/s, {seen} at the end"
     elif sizes[-1] < FAINT * size:

@@ -286,7 +286,8 @@ def node_loads(rotor: ShaftRotor, nodes: Mapping[int, Any]) -> Array:
     require_kind("forces", nodes, Mapping, "a mapping of nodes to forces")
     s, n = rotor.assembly, len(rotor.assembly.coordinates)
     loads, last = np.zeros((len(s.weight), 2 * len(nodes))), len(rotor.positions) - 1
-    if not nodes or any(node not in range(last + 1) for node in nodes):
+    known = range(last + 1)
+    if not nodes or any(not isinstance(node, int | np.integer) or node not in known for node in nodes):
         raise InputError(f"forces must be at nodes from 0 to {last}, got {list(nodes)}")
     for k, node in enumerate(nodes):
         loads[[2 * node, n + 2 * node], [2 * k, 2 * k + 1]] = 1.0

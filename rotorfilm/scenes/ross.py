@@ -130,6 +130,12 @@ def _from_file(file: Path, take: Callable[[Path, dict[str, Any]], Found]) -> Fou
         return take(file, data)
     except KeyError as missing:
         raise InputError(f"{file} must have the key {missing} in each of its elements") from None
+    except InputError:
+        raise
+    except (TypeError, ValueError) as wrong:
+        raise InputError(
+            f"{file} must have numbers, and as many coefficients as speeds, got {wrong}"
+        ) from wrong
 
 
 def _bearings(

@@ -100,6 +100,7 @@ def test_a_turning_force_is_an_unbalance():
     ("call", "message"),
     [
         (lambda: harmonic_response(SHAFT, SPRINGS, {7: [1.0, 0.0]}, [50.0]), "at nodes from 0 to 4, got"),
+        (lambda: harmonic_response(SHAFT, SPRINGS, {1.0: [1.0, 0.0]}, [50.0]), "at nodes from 0 to 4, got"),
         (lambda: harmonic_response(SHAFT, SPRINGS, {}, [50.0]), "at nodes from 0 to 4, got"),
         (
             lambda: harmonic_response(SHAFT, SPRINGS, {1: [1.0, np.nan]}, [50.0]),

@@ -46,8 +46,9 @@ def test_large_whirl_lasts_and_may_do_so_below_the_threshold():
     quiet = run_whirl(run(0.6, unbalance=5e-4)[0])
     assert quiet.whirl_ratio is None
     assert quiet.verdict.startswith("none")
-    rest = run(0.6)[0]
-    assert run_whirl(rest).verdict.startswith("nothing moves")
+    rest = run_whirl(run(0.6)[0])
+    assert rest.verdict.startswith("nothing moves")
+    assert (rest.growth_rate, rest.whirl_ratio) == (0.0, None)
 
 
 def test_runs_that_show_no_whirl_are_refused_and_print_without_it():

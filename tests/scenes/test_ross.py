@@ -301,6 +301,9 @@ def test_bearings_alone_are_read_as_with_their_rotor(tmp_path):
         ("[]", "must have named elements, got a list"),
         ("{}", "must have a bearing with the coefficient kxx"),
         ('{"BearingElement_A": {"kxx": 1.0}}', "must have the key 'cxx'"),
+        ('{"A": {"kxx": [1, 2, 3], "cxx": [1, 2, 3], "kyy": [1, 2]}}', "as many coefficients as speeds"),
+        ('{"A": {"kxx": [1, 2], "cxx": [1, 2], "frequency": [1, 2, 3]}}', "as many coefficients as speeds"),
+        ('{"A": {"kxx": "stiff", "cxx": 1.0}}', "must have numbers"),
     ):
         lone.write_text(text)
         with pytest.raises(InputError, match=match):

@@ -1,4 +1,4 @@
-"""Compiled runs of shafts in journals that feel their tilt: scipy, planar journals, contact of an end."""
+"""Compiled runs of shafts in journals that feel their tilt: scipy, planar journals, few shapes, contact."""
 
 from dataclasses import replace
 
@@ -61,6 +61,24 @@ def test_an_aligned_run_does_not_change():
     none = replace(CLOSED, level=TiltLevel.NONE)
     tilted = simulate(ROTOR, {"a": none, "b": none}, duration=0.05, samples=21)
     np.testing.assert_allclose(planar["b_x"], tilted["b_x"], rtol=0.0, atol=1e-10)
+
+
+def test_few_shapes_of_a_long_shaft_are_within_their_tolerance_of_all():
+    """Without the moments no few shapes balance their forces, and all of the shaft would be run."""
+    long = replace(
+        ROTOR,
+        elements=rf.ShaftElement(length=1.0, outer_diameter=0.05, material=STEEL).split(20),
+        disks=(replace(ROTOR.disks[0], node=10),),
+        stations=tuple(replace(one, node=10 * one.node) for one in ROTOR.stations),
+        unbalances=(rf.Unbalance(node=10, unbalance=2e-3),),
+    )
+    wide = replace(CLOSED, bearing=replace(PLAIN, length=0.1))
+    mounted = rf.mount(long, {"a": wide, "b": wide})
+    few = simulate_rotor(mounted, duration=0.005, samples=51)
+    whole = simulate_rotor(mounted, duration=0.005, samples=51, condensation=0.0)
+    assert np.ptp(whole["a_moment_x"]) > 1.0
+    for name, size in (("a_x", 1.0), ("b_y", 1.0), ("a_tilt_x", wide.arm)):
+        assert 0.0 < size * np.abs(few[name] - whole[name]).max() < 1e-5 * PLAIN.clearance
 
 
 def test_an_end_that_touches_ends_the_run():
