@@ -54,7 +54,7 @@ def test_every_row_leads_to_a_public_name_or_says_that_it_is_absent():
     rows = re.findall(r"^\| (?!---|Name|Search)(.*?) \| (.*) \|$", ELEMENTS, re.MULTILINE)
     assert len(rows) > 40
     for words, answer in rows:
-        names = re.findall(r"`(?:charts\.)?(\w+)", answer)
+        names = re.findall(r"`(?:(?:charts|analysis|scenes)\.)?(\w+)", answer)
         assert names or "absent" in answer or "](" in answer, words
         assert set(names) <= KNOWN, words
 
