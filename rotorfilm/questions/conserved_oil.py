@@ -160,7 +160,8 @@ NO_RUNG = (
 
 
 TURBULENT = (
-    "conservation of oil: in the estimate, by the laminar film; no model conserves that of a turbulent film"
+    "conservation of oil: in the estimate, by the laminar film; a scene that names the film jfo conserves "
+    "that of the turbulent one"
 )
 
 
@@ -246,7 +247,8 @@ def conserved_rungs(scene: Scene, question: Any) -> tuple[FunctionRung, ...]:
         return tuple(conserved_rung(question, film) for film in films)
     heat = partial(_heat_of_balance, question, films[0])
     uniform = tuple(conserved_rung(question, film, heat) for film in films)
-    return (*uniform, *(field_rung(question, level, any_candidate(films[0])) for level in question.levels))
+    levels = () if bearing.turbulence is not None else question.levels  # a `HeatedJFOFilm` is laminar
+    return (*uniform, *(field_rung(question, level, any_candidate(films[0])) for level in levels))
 
 
 def conserved_rung(

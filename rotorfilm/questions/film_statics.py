@@ -149,7 +149,7 @@ EFFECTS = [
 def film_ladder(scene: Scene, films: Films, question: FilmQuestion) -> Ladder:
     """Return the ladder of a question on films of one viscosity, with the effects that the scene has."""
     if not question.moves and scene.journal is not None and scene.journal.conserves:
-        return conserved_ladder(scene, question)
+        return turbulent_oil(scene, question, films(scene), conserved_ladder(scene, question))
     known = films(scene)
     rungs: list[Rung] = [question.make(film, count) for film in known for count in question.counts]
     if question.effort is not None:

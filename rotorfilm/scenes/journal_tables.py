@@ -241,8 +241,8 @@ class JournalTable(OiledTable):
         """Return what its physics leaves out and should not; see `film_remarks`."""
         if isinstance(bearing, HeldTilt):
             return film_remarks(bearing.journal.bearing, oil, speed, load)
-        own = film_remarks(bearing, oil, speed, load)
-        return own if isinstance(bearing, JFOFilm) else (*turbulent_remarks(bearing, speed, load), *own)
+        inner = bearing.bearing if isinstance(bearing, JFOFilm) else bearing
+        return (*turbulent_remarks(inner, speed, load), *film_remarks(bearing, oil, speed, load))
 
     def make_map(self, report: Report) -> None:
         """Make the map of openings, where there are some and the film is one, unless it lies on disk."""

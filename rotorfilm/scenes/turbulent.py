@@ -75,7 +75,7 @@ def decided(table: Any, scene: Any) -> Any:
     choice = getattr(table, "turbulence", NONE)
     if choice == NONE or not table.has_lubricant or (choice == AUTO and not _takes(table)):
         return table
-    bearing = table.build()
+    bearing = _without_oil(table.build())
     if isinstance(choice, Turbulence):
         return replace(table, turbulence=on_oil(choice, bearing, scene))
     return replace(table, turbulence=turbulence_of(bearing, scene)) if is_above(bearing, scene) else table
@@ -98,16 +98,21 @@ def is_left_laminar(table: Any, scene: Any) -> bool:
     choice = getattr(table, "turbulence", None)
     if choice is None or _is_tilted(table) or (choice == AUTO and _takes(table)):
         return False
-    return effect_of(table) is None and is_above(table.build(), scene)
+    return effect_of(table) is None and is_above(_without_oil(table.build()), scene)
 
 
 def is_above(bearing: Any, scene: Any) -> bool:
     """Return whether a bearing of a scene is above the onset at the temperature of its laminar balance."""
     density, speed = scene.lubricant.properties.density, scene.speed
-    if isinstance(bearing, JFOFilm) or not _may_be(bearing, density, speed):
+    if not _may_be(bearing, density, speed):
         return False
     warm = warmed(bearing, scene.static_load, speed) if bearing.is_warming else bearing
     return is_turbulent_at(warm, density, speed)
+
+
+def _without_oil(bearing: Any) -> Any:
+    """Return the bearing of a film that conserves its oil, and any other bearing as it is."""
+    return bearing.bearing if isinstance(bearing, JFOFilm) else bearing
 
 
 def _is_tilted(table: Any) -> bool:

@@ -118,6 +118,29 @@ def test_estimates_of_turbulent_grooved_films_count_the_oil_that_a_laminar_one_c
     assert starved.error_estimate > 0.5
 
 
+JFO = GROOVED.format(center=90).replace("25 deg", '25 deg", length = "0.3 m') + (
+    'supply_pressure = "1 bar"\nfilm = { name = "jfo", cells = [36, 4] }\n'
+)
+
+
+def test_a_scene_that_names_the_film_that_conserves_its_oil_is_turbulent_by_the_closure_it_names():
+    further = QUESTION.format(quantity="power_loss", tolerance=10)
+    asked = scene(JFO + 'turbulence = "ng_pan"\n', further=further)
+    film = asked.journal.build()
+    assert film.bearing.turbulence == Turbulence(closure="ng_pan", density=855.0)
+    answer = quietly(asked.ask)
+    at = rf.equilibrium(film, [0.0, -3e5], asked.speed)
+    assert answer.value == pytest.approx(at.losses.power_loss, rel=1e-9)
+    assert answer.met
+    assert "; closure, " in answer.rungs[0].method
+    assert any("closure ng_pan, band" in remark for remark in answer.remarks)
+    laminar = quietly(scene(JFO, further=further).ask)
+    assert laminar.rungs[0].reason == "a laminar film above the onset of turbulence meets no tolerance"
+    truth = abs(laminar.value / answer.value - 1.0)
+    assert 0.5 * truth < laminar.error_estimate < 2.0 * truth
+    assert quietly(scene(JFO, speed=1000, further=further).ask).met
+
+
 @pytest.mark.parametrize("quantity", ["eccentricity_ratio", "power_loss", "stiffness"])
 def test_the_estimate_counts_what_the_quadrature_and_the_full_stress_change(quantity):
     keys = MU + 'turbulence = { closure = "ng_pan", band = false, density = 855 }'
