@@ -38,6 +38,7 @@ DRAWN = {
     "python benchmarks/studies/damper_paper.py": ["damper_paper"],
     "python benchmarks/studies/journal_paper.py": ["journal_paper"],
     "python benchmarks/conserved_damper.py damper_turn.png": ["damper_turn"],
+    "python benchmarks/open/compare.py chart_open.png": ["chart_open"],
     "python benchmarks/turbulence.py --scenes 0 --out .": ["chart_turbulence"],
     "python benchmarks/periodic_orbits.py orbits_cost.png": ["orbits_cost"],
     "python benchmarks/rotor_size.py rotor_size.png": ["rotor_size"],

@@ -1,9 +1,9 @@
 """Errors and costs of all results of the open benchmark, as a table and a chart.
 
-    python benchmarks/open/compare.py                  what is in benchmarks/open/results/
+    python benchmarks/open/compare.py [PICTURE.png]    what is in benchmarks/open/results/
     python benchmarks/open/compare.py --add MINE.csv   check the results of another code and take them along
 
-The chart is docs/chart_open.png. README.md says which columns a file of results has.
+The chart is docs/chart_open.png, or the picture given. README.md says which columns a file of results has.
 """
 
 from __future__ import annotations
@@ -163,7 +163,7 @@ def beside_published() -> list[str]:
     return lines
 
 
-def draw(found: dict[Solution, tuple[float, Numbers]]) -> None:
+def draw(found: dict[Solution, tuple[float, Numbers]], picture: Path = PICTURE) -> None:
     """Write the chart of error over cost, a panel for each measure."""
     figure = new_figure(size=(11.0, 7.0))
     labels = sorted({(code, model) for code, model, _ in found})
@@ -189,7 +189,7 @@ def draw(found: dict[Solution, tuple[float, Numbers]]) -> None:
     }
     panels[-1].axis("off")
     panels[-1].legend(handles.values(), handles.keys(), loc="center", fontsize=8)
-    save(panels[0], PICTURE)
+    save(panels[0], picture)
 
 
 def main(arguments: list[str]) -> int:
@@ -202,12 +202,12 @@ def main(arguments: list[str]) -> int:
         if wrong:
             return 1
         shutil.copy(path, RESULTS / path.name)
-    elif arguments:
+    elif arguments[1:] or not all(word.endswith(".png") for word in arguments):
         print(__doc__)
         return 2
     found = judged()
     print("\n".join([*summary(found), "", *beside_published()]))
-    draw(found)
+    draw(found, Path(arguments[0]) if arguments[:1] and arguments[0] != "--add" else PICTURE)
     return 0
 
 

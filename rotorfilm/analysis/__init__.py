@@ -97,6 +97,7 @@ if TYPE_CHECKING:
         film_system as film_system,
         linearize as linearize,
     )
+    from .many_runs import simulate_many as simulate_many
     from .nonlinear_system import ModelSystem, to_nlsys as to_nlsys
     from .periodic_orbit import PeriodicOrbit as PeriodicOrbit, periodic_orbit as periodic_orbit
     from .rotor_equilibrium import (
@@ -107,12 +108,14 @@ if TYPE_CHECKING:
         Campbell as Campbell,
         CriticalSpeed as CriticalSpeed,
         RotorModes as RotorModes,
-        RotorThreshold as RotorThreshold,
-        StabilityChange as StabilityChange,
         campbell as campbell,
         critical_speeds as critical_speeds,
         resonant_speeds as resonant_speeds,
         rotor_modes as rotor_modes,
+    )
+    from .rotor_thresholds import (
+        RotorThreshold as RotorThreshold,
+        StabilityChange as StabilityChange,
         rotor_threshold as rotor_threshold,
         stability_changes as stability_changes,
     )

@@ -33,7 +33,7 @@ from .linearize import control_system, film_states, linearize
 from .modal_reduction import SOLVED, TOLERANCE, Condensed, counted, models, tally, with_work
 from .rotor_equilibrium import RotorEquilibrium, rest, rotor_equilibrium
 from .rotor_matrices import LeftOut, frequency_dependent_films, rest_near, second_order, small_motion
-from .rotor_modes import first_growing
+from .rotor_thresholds import first_growing
 from .threads import one_blas_thread
 
 if TYPE_CHECKING:

@@ -40,9 +40,9 @@ from .compiled_rotor import (
     Complex,
     JournalFilms,
     ModalRotor,
+    NeglectedMotion,
     Parts,
     journal_rows,
-    largest_difference,
     modal_rotor,
     modes,
     raise_foreign,
@@ -57,8 +57,8 @@ from .threads import one_blas_thread
 LONGEST_TURN = 1.0
 """Longest step in turns of the shaft."""
 
-COMPARED = 201
-"""Times at which runs in fewer and more shapes are compared, at least."""
+CHECKED = 401
+"""Times at which the neglected shapes of a run are looked at, at least."""
 
 
 @one_blas_thread
@@ -82,15 +82,19 @@ def simulate_rotor(
     On springs and dampers at constant speed the motion is exact at every sample, and no steps are taken.
 
     A `SpeedProfile` may change the gyroscopic effect and the rotating damping too. A shaft of many elements
-    (more than 60 coordinates) is reduced to its lowest mode shapes. The run is repeated with shapes up to
-    four times the frequency, until the journals of two runs agree. If they never agree, the whole shaft is
-    integrated.
+    (more than 60 coordinates) is reduced to its lowest mode shapes. Forces of the bearings, unbalance and
+    weight in such a run also act on the whole shaft, and bend the shapes that were neglected. The run counts
+    if that moves no journal further than `condensation`, estimated as twice the static response of these
+    shapes; otherwise it is repeated with shapes up to twice the frequency, and with the whole shaft in the
+    end. The estimate is made moment by moment, so it also serves for unstable motion, in which two runs part
+    however close they begin.
 
     Parameters
     ----------
     mounted : MountedRotor
         Mounted rotor from `mount`, with a bearing without states in at least one station, and without free
-        force inputs. Its speed may be a profile.
+        force inputs. Its bearings react to x and y, or are a `MomentCarryingJournal`. Its speed may be a
+        profile.
     duration : float [s]
     samples : int
         Number of samples at equal distance, from 0 to `duration` inclusive.
@@ -103,7 +107,8 @@ def simulate_rotor(
         (clearance speed).
     max_step : float [s]
     condensation : float [1]
-        Largest difference of the two runs of a large shaft, in clearances; 0 integrates the whole shaft.
+        Largest displacement of a journal by the neglected shapes of a large shaft, in clearances. With 0 the
+        whole shaft is integrated.
 
     Returns
     -------
@@ -136,33 +141,26 @@ def simulate_rotor(
         raise InputError(f"initial_state must have shape ({size},), got {state.shape}")
     grid = sample_times(duration, samples, times)
     run = partial(_run, duration=duration, rtol=rtol, max_step=max_step)
-    return _agreed(starts(mounted, state, whole=condensation == 0.0), run, grid, duration, condensation)
+    return _verified(starts(mounted, state, whole=condensation == 0.0), run, grid, duration, condensation)
 
 
-def _agreed(
-    starts: Iterator[tuple[MountedRotor, Array, bool]],
-    run_of: Callable[..., Trajectory],
+def _verified(
+    starts: Iterator[tuple[MountedRotor, Array, NeglectedMotion | None]],
+    run_of: Callable[..., tuple[Trajectory, Array, Exception | None]],
     grid: Array,
     duration: float,
     condensation: float,
 ) -> Trajectory:
-    """Return the first run that one in fewer shapes agrees with, or that of the whole rotor."""
-    # Runs are compared at more times than those that are asked for.
-    dense = np.union1d(grid, np.linspace(0.0, duration, COMPARED))
+    """Return the first run whose neglected shapes move the journals little enough, or that of the whole."""
+    # The journals are looked at more often than at the times that are asked for.
+    dense = np.union1d(grid, np.linspace(0.0, duration, CHECKED))
     work: Counter[str] = Counter()
-    before: Trajectory | None = None
-    for mounted, state, condensed in starts:
-        failure = None
-        parts = take_apart(mounted)
-        try:
-            run = run_of(mounted, state, parts, dense if condensed else grid)
-        except (ContactError, ConvergenceError) as raised:
-            failure, run = raised, raised.partial
+    for mounted, state, neglected in starts:
+        parts = take_apart(mounted, tilts=True)
+        run, states, failure = run_of(mounted, state, parts, grid if neglected is None else dense)
         work.update(run.work)
-        near = before is not None and largest_difference(parts, before, run) <= condensation
-        if near or not condensed:
+        if neglected is None or neglected.largest(run, states) <= condensation:
             break
-        before = run
     picked = replace(_at(run, grid), work=dict(work))
     if failure is not None:
         raise type(failure)(str(failure), picked) from failure
@@ -184,34 +182,30 @@ def _run(
     duration: float,
     rtol: float,
     max_step: float,
-) -> Trajectory:
+) -> tuple[Trajectory, Array, Exception | None]:
+    """Return a run, the states at its times, and what ended it early."""
     if (exact := linear_states(parts, state, grid)) is not None:
-        return _trajectory(mounted, grid, [exact], parts, dict.fromkeys(_COUNTERS, 0))
+        return _trajectory(mounted, grid, exact, parts, dict.fromkeys(_COUNTERS, 0)), exact, None
     rate = parts.nominal_speed or rate_of(modal_rotor(parts, 0.0))
     longest = min(max_step, duration, LONGEST_TURN * 2.0 * np.pi / rate)
     run = RunUp(parts, state, duration, partial(March, rtol=rtol, longest=longest, duration=duration))
-    kept: list[Array] = [state[None]] if grid.size and grid[0] == 0.0 else []
+    kept: list[Array] = [np.zeros((0, len(state))), *([state[None]] if grid.size and grid[0] == 0.0 else [])]
     try:
         kept.extend(run.states(grid))
     except (ContactError, ConvergenceError) as failure:
-        kept.append(failure.partial)
-        raise type(failure)(str(failure), _kept_trajectory(mounted, grid, kept, run)) from failure
+        states = np.concatenate([*kept, failure.partial])
+        try:
+            return _trajectory(mounted, grid, states, parts, run.work), states, failure
+        except InputError:  # a film has no force in the last state
+            return _trajectory(mounted, grid, states[:-1], parts, run.work), states[:-1], failure
     run.warn()
-    return _trajectory(mounted, grid, kept, parts, run.work)
-
-
-def _kept_trajectory(mounted: MountedRotor, grid: Array, kept: list[Array], run: RunUp) -> Trajectory:
-    """Return the trajectory of a failed run, without its last state where a film has no force there."""
-    try:
-        return _trajectory(mounted, grid, kept, run.parts, run.work)
-    except InputError:
-        return _trajectory(mounted, grid, [np.concatenate(kept)[:-1]], run.parts, run.work)
+    states = np.concatenate(kept)
+    return _trajectory(mounted, grid, states, parts, run.work), states, None
 
 
 def _trajectory(
-    mounted: MountedRotor, grid: Array, kept: list[Array], parts: Parts, work: dict[str, int]
+    mounted: MountedRotor, grid: Array, states: Array, parts: Parts, work: dict[str, int]
 ) -> Trajectory:
-    states = np.concatenate(kept) if kept else np.zeros((0, len(mounted.states)))
     time = grid[: len(states)]
     rotor = mounted.bare
     # Displacements and rates are linear in the state, the last output is the speed.
@@ -222,9 +216,11 @@ def _trajectory(
     signals = dict(zip(names(rotor.outputs), outputs, strict=True))
     for name, bearing in zip(parts.names, parts.bearings, strict=True):
         prefix = f"{name}_" if name else ""
-        x, y, vx, vy = (signals[prefix + key] for key in ("x", "y", "vx", "vy"))
-        force = bearing.force(np.stack([x, y]), np.stack([vx, vy]), signals["speed"])
-        signals[prefix + "force_x"], signals[prefix + "force_y"] = force
+        *motion, _ = (signals[prefix + key.name] if key.name != "speed" else 0.0 for key in bearing.inputs)
+        half = len(motion) // 2
+        force = bearing.force(np.stack(motion[:half]), np.stack(motion[half:]), signals["speed"])
+        for out, row in zip(bearing.outputs, force, strict=False):
+            signals[prefix + out.name] = row
     known = {**dict.fromkeys(signals, "N"), **units(rotor.outputs)}
     return Trajectory(time=time, signals=signals, work=work, units=known)
 

@@ -12,7 +12,7 @@ a rotor that is free to move would have no complete set of modes. Of each conjug
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from ctypes import CFUNCTYPE, POINTER, byref, c_double, c_int, c_void_p, cast
 from typing import Any, NamedTuple
 
@@ -50,15 +50,18 @@ from ..rotors import (
     TimeExcitedRotor,
     mount,
 )
+from ..rotors.profile import Turning
 from ..rotors.structure import (
     NOMINAL_LENGTH,
     MatrixRotor,
     Structure,
+    freedom_rows,
     mean_plane,
     solved_equations,
     station_name,
 )
 from .modal_reduction import Condensed, models
+from .rotor_matrices import FASTER, unbalanced
 
 # Forces behind addresses (`native.film_call`): a reaction without a compiled one is called back in Python,
 # slower, with the same result.
@@ -80,9 +83,14 @@ def warn_beyond(calls: Iterable[FilmCall]) -> None:
     warn_user(f"a journal went beyond the map of its film; its force is {how}")
 
 
-def film_call(reaction: Any) -> FilmCall:
-    """Return the compiled force of a reaction without states, one that calls back where it has none."""
+def film_call(reaction: Any, *, tilts: bool = False) -> FilmCall:
+    """Return the compiled force of a reaction without states, one that calls back where it has none.
+
+    With `tilts` it may be that of a journal that feels its tilt.
+    """
     require_massless("reaction", reaction)
+    if tilts and feels_tilt(reaction):
+        return reaction.tilted_call() or _called_back(reaction)
     return compiled_force(reaction) or _called_back(reaction)
 
 
@@ -106,13 +114,14 @@ def call_with_added_mass(reaction: Any) -> FilmCall:
 
 def _called_back(reaction: Any) -> FilmCall:
     raised: list[BaseException] = []
+    n = len(freedoms_of(reaction))
 
     def answer(_: Any, state: Any, force: Any, jacobian: Any) -> int:
-        position, velocity = np.array(state[:2]), np.array(state[2:4])
+        position, velocity, speed = np.array(state[:n]), np.array(state[n : 2 * n]), state[2 * n]
         try:
-            for i, value in enumerate(static_force(reaction, position, velocity, state[4]).tolist()):
+            for i, value in enumerate(static_force(reaction, position, velocity, speed).tolist()):
                 force[i] = value
-            slopes = static_slopes(reaction, position, velocity, state[4])[:, :5]
+            slopes = static_slopes(reaction, position, velocity, speed)[:, : 2 * n + 1]
             for i, value in enumerate(slopes.ravel().tolist()):
                 jacobian[i] = value
         except FilmContactError:
@@ -160,7 +169,7 @@ class Parts(NamedTuple):
     names : tuple of str
         Stations of the bearings.
     rows : ndarray, shape (2 n_bearings, N)
-        Displacement of their journals.
+        Displacement of their journals; (4 n_bearings, N), of two points of each, where one feels its tilt.
     excited : ndarray, shape (1 + m, n), or None
         Times and excitation over them, as acceleration of the ground along x and y; None without.
     moved : ndarray, shape (N, m)
@@ -176,10 +185,15 @@ class Parts(NamedTuple):
     moved: Array = np.zeros((0, 0))
 
     @property
+    def points(self) -> int:
+        """Points of each journal whose displacements its film needs: 2 where a journal feels its tilt."""
+        return len(self.rows) // (2 * len(self.bearings))
+
+    @property
     def lengths(self) -> Array:
-        """Typical displacement of each journal: its clearance, shape (n_bearings,) [m]."""
+        """Typical displacement of each point: the clearance, shape (points n_bearings,) [m]."""
         sizes = [bearing.clearance for bearing in self.bearings]
-        return np.array([size if math.isfinite(size) else NOMINAL_LENGTH for size in sizes])
+        return np.repeat([size if math.isfinite(size) else NOMINAL_LENGTH for size in sizes], self.points)
 
     @property
     def nominal_speed(self) -> float:
@@ -251,8 +265,50 @@ class ModalRotor(NamedTuple):
         return np.asarray((self.shapes @ modal).real + rest)
 
 
-def take_apart(mounted: MountedRotor) -> Parts:
+def feels_tilt(bearing: Any) -> bool:
+    """Return whether a bearing is a journal in C that feels its tilt."""
+    return hasattr(bearing, "tilted_call")
+
+
+def point_rows(bearing: Any) -> Array:
+    """Return x and y of two points of a journal, shape (4, 4), by x, y, tilt_x and tilt_y of its middle."""
+    arm = bearing.arm if feels_tilt(bearing) else 0.0
+    return np.array(
+        [[1.0, 0.0, 0.0, arm], [0.0, 1.0, -arm, 0.0], [1.0, 0.0, 0.0, -arm], [0.0, 1.0, arm, 0.0]]
+    )
+
+
+def _rows(structure: Structure, names: Sequence[str], bearings: Sequence[Any], *, tilted: bool) -> Array:
+    """Return the displacements of journals, or of two points of each: of its ends where it feels its tilt."""
+    each = []
+    for name, bearing in zip(names, bearings, strict=True):
+        if feels_tilt(bearing) and tilted:
+            each.append(point_rows(bearing) @ freedom_rows(structure, name, bearing.freedoms))
+        else:
+            each += [freedom_rows(structure, name)] * (2 if tilted else 1)
+    return np.concatenate(each)
+
+
+def point_forces(parts: Parts, run: Trajectory) -> list[Array]:
+    """Return the forces on the points of the journals in a run, along x and y of each, shape (n_times,) each.
+
+    Those on two points of a journal have its force and its moments; half of its force is at each without.
+    """
+    forces: list[Array] = []
+    for name, bearing in zip(parts.names, parts.bearings, strict=True):
+        count = len(freedoms_of(bearing))
+        found = [run[station_name(name, signal.name)] for signal in bearing.outputs[:count]]
+        if feels_tilt(bearing) and parts.points > 1:
+            forces.extend(np.linalg.solve(point_rows(bearing).T, np.stack(found)))
+        else:
+            forces.extend(row / parts.points for row in found * parts.points)
+    return forces
+
+
+def take_apart(mounted: MountedRotor, *, tilts: bool = False) -> Parts:
     """Return structure, speed and bearings of a rotor that rests in bearings without states.
+
+    With `tilts` they may be journals that feel their tilt.
 
     Raises
     ------
@@ -272,10 +328,11 @@ def take_apart(mounted: MountedRotor) -> Parts:
             f"bearings must have no states of their own here, got some at the stations {moving}: "
             "simulate(rotor, bearings) takes them, and unbalance_response their small motion"
         )
+    tilted = tilts and any(feels_tilt(bearing) for bearing in bearings)
     for name in names:
-        require_reaction(f"bearings[{name!r}]", found[name], heavy=True, planar=True)
-    places = [structure.stations.index(name) for name in names]
-    rows = np.concatenate([structure.journals[2 * k : 2 * k + 2] for k in places])
+        planar = not (tilted and feels_tilt(found[name]))
+        require_reaction(f"bearings[{name!r}]", found[name], heavy=True, planar=planar)
+    rows = _rows(structure, names, bearings, tilted=tilted)
     parts = Parts(structure, profile, tuple(bearings), tuple(names), rows)
     if isinstance(bare, TimeExcitedRotor):
         return parts._replace(excited=bare.rows, moved=bare.columns)
@@ -307,7 +364,10 @@ def state_matrices(parts: Parts, speed: float) -> tuple[Array, Array, Array]:
     """Return A (2 N, 2 N) without films, B (2 N, 2 n_bearings + 2), the weight's acceleration (2 N,)."""
     model = solved_equations(parts.structure)
     places = [2 * parts.structure.stations.index(name) + axis for name in parts.names for axis in range(2)]
-    pushes = [model.push[:, places], model.unbalance]
+    forces = model.push[:, places]
+    if parts.points > 1:
+        forces = np.vstack([np.zeros_like(parts.rows.T), np.linalg.solve(parts.structure.mass, parts.rows.T)])
+    pushes = [forces, model.unbalance]
     if parts.excited is not None:
         pushes.append(np.vstack([np.zeros_like(parts.moved), parts.moved]))
     return (
@@ -366,14 +426,14 @@ def modal_rotor(parts: Parts, speed: float) -> ModalRotor:
         rest=np.asarray(-np.linalg.solve(shifted, weight)),
         spring=K0,
         damper=C0,
-        calls=tuple(film_call(bearing) for bearing in parts.bearings),
+        calls=tuple(film_call(one, tilts=parts.points > 1) for one in parts.bearings),
         condition=condition,
     )
 
 
 def _natural_support(parts: Parts, speed: float) -> tuple[Array, float]:
     """Return the size of the stiffness at each bearing [N/m], and a typical rate [1/s]."""
-    count, s = len(parts.bearings), parts.structure
+    count, s = len(parts.lengths), parts.structure
     load = float(np.linalg.norm(s.weight)) / count
     # A rigid translation is what the journals' rows see with a weight of one.
     mass = float(np.trace(s.mass)) / (2.0 * count)
@@ -409,6 +469,11 @@ CONTACT_GAP = 1e-9
 """Film thickness, in clearances, at which a journal counts as touching: below any surface roughness."""
 
 
+def _wall(bearing: Any) -> float:
+    """Return the eccentricity at which a journal's points touch [m]; infinite where its force says that."""
+    return math.inf if feels_tilt(bearing) and bearing.tilted_call() is None else float(bearing.clearance)
+
+
 class JournalFilms(NamedTuple):
     """The bearings of a rotor as the C library reads them.
 
@@ -424,6 +489,8 @@ class JournalFilms(NamedTuple):
         Clearances, or what stands for them.
     walls : ndarray, shape (n,) [m]
         Eccentricities at which a journal counts as touching; infinite without a wall.
+    arms : ndarray, shape (n / points,) [m]
+        Of each journal's points; 0 where it feels no tilt.
     """
 
     films: np.ndarray
@@ -433,19 +500,24 @@ class JournalFilms(NamedTuple):
     damper: Array
     lengths: Array
     walls: Array
+    arms: Array
 
     @classmethod
     def of_rotor(cls, modal: ModalRotor, *, absolute: bool = False) -> JournalFilms:
         """Return those of a rotor, which has to live as long; motion is from its rest, or `absolute`."""
         addresses = np.array([(call.address, call.data) for call in modal.calls], dtype=np.uintp).T
-        rest = np.zeros(4 * len(modal.calls)) if absolute else modal.journal_rest
-        walls = (1.0 - CONTACT_GAP) * np.array([bearing.clearance for bearing in modal.parts.bearings])
-        rows = rest, modal.spring, modal.damper, modal.parts.lengths, walls
+        parts = modal.parts
+        rest = np.zeros(4 * len(parts.lengths)) if absolute else modal.journal_rest
+        sizes = [_wall(one) for one in parts.bearings]
+        walls = (1.0 - CONTACT_GAP) * np.repeat(sizes, parts.points)
+        arms = np.array([one.arm if feels_tilt(one) else 0.0 for one in parts.bearings])
+        rows = rest, modal.spring, modal.damper, parts.lengths, walls, arms
         return cls(*map(np.ascontiguousarray, (*addresses, *rows)))
 
     def struct(self) -> Any:
         """Return them as the C library reads them, while this object lives."""
-        return structure("rf_journals")(len(self.lengths), *(numbers.ctypes.data for numbers in self))
+        sizes = len(self.lengths), len(self.lengths) // len(self.arms)
+        return structure("rf_journals")(*sizes, *(numbers.ctypes.data for numbers in self))
 
     def forces(self, motion: Array, speed: float) -> tuple[int, Array, Array]:
         """Return a status, forces of films and springs (2 n, samples), and slopes (2 n, 4, samples).
@@ -491,7 +563,7 @@ def compiled_form(rotor: Dynamic, reaction: Any) -> MountedRotor | None:
     reaction : Reaction
         The bearing of that.
     """
-    if not _is_linear(rotor) or not _is_compiled(reaction):
+    if not is_linear(rotor) or not _is_compiled(reaction):
         return None
     mounted = mount(rotor, {"": reaction})
     if not all(map(_is_compiled, mounted.all_bearings.values())):
@@ -511,7 +583,8 @@ def takes_forces(rotor: Dynamic, bearings: Iterable[Any]) -> bool:
     mounted = rotor.all_bearings.values() if isinstance(rotor, MountedRotor) else ()
     every = (*bearings, *mounted)
     massless = all(not film.states and inertial(film) is None for film in every)
-    return massless and _is_linear(rotor) and all(freedoms_of(film) == PLANAR for film in every)
+    planar = all(freedoms_of(film) == PLANAR or feels_tilt(film) for film in every)
+    return massless and planar and is_linear(rotor)
 
 
 def _is_compiled(bearing: Any) -> bool:
@@ -519,7 +592,7 @@ def _is_compiled(bearing: Any) -> bool:
     return planar and inertial(bearing) is None and compiled_force(bearing) is not None
 
 
-def _is_linear(rotor: Dynamic) -> bool:
+def is_linear(rotor: Dynamic) -> bool:
     """Return whether a rotor, in bearings or not, has the equations of its matrices."""
     bare = rotor.bare if isinstance(rotor, MountedRotor) else rotor
     bare = bare.rotor if isinstance(bare, TimeExcitedRotor) else bare
@@ -535,24 +608,26 @@ def _is_linear(rotor: Dynamic) -> bool:
 FREQUENCY = 4.0
 """Frequency of the fewest shapes / largest speed."""
 
-FURTHER = 2
-"""Doublings of the frequency from one set of shapes to the next: one may add shapes that nothing excites."""
+SUDDEN = 2.0
+"""Ratio of the response of a shape to a force that begins at once to that to a slow one."""
 
 
-def starts(mounted: MountedRotor, state: Array, *, whole: bool) -> Iterator[tuple[MountedRotor, Array, bool]]:
+def starts(
+    mounted: MountedRotor, state: Array, *, whole: bool
+) -> Iterator[tuple[MountedRotor, Array, NeglectedMotion | None]]:
     """Yield a rotor in ever more of its shapes, and whole in the end or at once.
 
-    With each come its state at t = 0 and whether more shapes may follow.
+    With each come its state at t = 0, and what the shapes do not show; None for the whole rotor.
     """
     rotor = mounted.bare
     if not whole and isinstance(rotor, FlexibleRotor) and rotor.assembly.hysteresis is None:
-        for k, model in enumerate(models(rotor, FREQUENCY * rotor.nominal_speed)):
+        for model in models(rotor, FREQUENCY * rotor.nominal_speed):
             if model.space is None:
                 break
-            if k % FURTHER == 0:
-                small = MatrixRotor(rotor, model.structure)
-                yield mount(small, mounted.all_bearings), _within(model, state), True
-    yield mounted, state, False
+            small = mount(MatrixRotor(rotor, model.structure), mounted.all_bearings)
+            begun = _within(model, state)
+            yield small, begun, neglected_motion(model, take_apart(small, tilts=True), state, begun)
+    yield mounted, state, None
 
 
 def _within(model: Condensed, state: Array) -> Array:
@@ -562,13 +637,78 @@ def _within(model: Condensed, state: Array) -> Array:
     return np.concatenate([shapes.T @ (mass @ part) for part in np.split(state, 4)])
 
 
-def largest_difference(parts: Parts, one: Trajectory, other: Trajectory) -> float:
-    """Return by how much journals of two runs are apart, in clearances; inf where not both go as far."""
-    if len(one.time) != len(other.time):
-        return np.inf
-    worst = 0.0
-    for name, length in zip(parts.names, parts.lengths, strict=True):
-        for axis in "xy":
-            key = station_name(name, axis)
-            worst = max(worst, float(np.abs(one[key] - other[key]).max(initial=0.0)) / float(length))
-    return worst
+class NeglectedMotion(NamedTuple):
+    """How the shapes that a run neglects answer what its shapes do not balance, at the journals.
+
+    The forces of the bearings in the run, the unbalance and the weight act on the whole rotor too. What the
+    motion in the shapes leaves of them bends the neglected shapes, as slow forces do.
+
+    Attributes
+    ----------
+    parts : Parts
+        The rotor in its shapes.
+    by_motion : ndarray, shape (2 n_points, 5 n)
+        Displacement of the points of the journals per acceleration, velocity, velocity times speed, place,
+        place times speed in the n shapes.
+    by_force : ndarray, shape (2 n_points, 2 n_points + 3)
+        Displacement per force on the points, per unit of the unbalance's acceleration and by the weight.
+    begun : ndarray, shape (n_points,) [m]
+        Displacement of the points at t = 0, at most, by what of the initial state the shapes do not have.
+    """
+
+    parts: Parts
+    by_motion: Array
+    by_force: Array
+    begun: Array
+
+    def largest(self, run: Trajectory, states: Array) -> float:
+        """Return the largest displacement of a journal at the times of a run, in clearances.
+
+        Parameters
+        ----------
+        run : Trajectory
+            Run of the rotor in its shapes.
+        states : ndarray, shape (n_times, 2 n)
+        """
+        parts, time = self.parts, run.time
+        profile = parts.profile
+        speed = np.array([profile.speed(t) for t in time])[:, None]
+        shaft = Turning()
+        shaft.speed = profile
+        turning = np.array([shaft.rotating(t) for t in time]).reshape(-1, 2)
+        forces = np.column_stack([*point_forces(parts, run), turning, np.ones(len(time))])
+        steady, push, weight = state_matrices(parts, 0.0)
+        place, velocity = np.hsplit(states, 2)
+        pushed = forces @ np.column_stack([push, weight]).T
+        by_speed = solved_equations(parts.structure).by_speed
+        rates = states @ steady.T + speed * (states @ by_speed.T) + pushed
+        motion = np.hstack([rates[:, place.shape[1] :], velocity, speed * velocity, place, speed * place])
+        away = (forces @ self.by_force.T - motion @ self.by_motion.T).reshape(len(time), -1, 2)
+        away = np.hypot(away[..., 0], away[..., 1]).max(axis=0, initial=0.0)
+        return float(((SUDDEN * FASTER * away + self.begun) / parts.lengths).max())
+
+
+def neglected_motion(model: Condensed, parts: Parts, state: Array, begun: Array) -> NeglectedMotion:
+    """Return how neglected shapes move the journals of a rotor in a model of it.
+
+    Parameters
+    ----------
+    model : Condensed
+    parts : Parts
+        The rotor in this model.
+    state, begun : ndarray, shape (2 N,), (2 n,)
+        Initial state of the whole rotor and of the model.
+    """
+    assert model.space is not None
+    whole, shapes = model.whole, model.lifted(np.eye(len(model.structure.weight)))
+    journals = _rows(whole, parts.names, parts.bearings, tilted=parts.points > 1)
+    matrices = whole.mass, whole.damping, whole.gyroscopic, whole.stiffness, whole.circulation
+    columns = [*(matrix @ shapes for matrix in matrices), journals.T, whole.unbalance, whole.weight[:, None]]
+    heavy = whole.mass @ shapes
+    left = [unbalanced(part, shapes, heavy) for part in (journals.T, np.hstack(columns))]
+    found = left[0].T @ model.answer(left[1])
+    split = len(matrices) * shapes.shape[1]
+    missing = zip(np.split(state, 2), np.split(begun, 2), strict=True)
+    place, velocity = (journals @ (full - model.lifted(some)) for full, some in missing)
+    size = np.hypot(*place.reshape(-1, 2).T) + np.hypot(*velocity.reshape(-1, 2).T) / model.space.cut
+    return NeglectedMotion(parts, found[:, :split], found[:, split:], size)

@@ -408,7 +408,8 @@ class SpannedModes:
         if self.model.space is None or not len(places):
             return 0.0
         values, right, left = self.modes
-        whole = FullRotorModel(self.model.whole, self.rests[1], self.middle)
+        at = rest_near(self.rests[1], 1j * self.middle)  # K(s) as the eigenvalues have it
+        whole = FullRotorModel(self.model.whole, at, self.middle)
         ends = (self.model.lifted(side) for side in (right[:, places], left[places].conj().T))
         return float(whirl_errors(self.model, whole, values[places], *ends).max())
 

@@ -479,7 +479,8 @@ class StaticTarget(NamedTuple):
         """Raise what the film fails with at a point of the search."""
         if self.call.raised:
             raise self.call.raised[0]
-        prepared_tangent(self.film)(*point.position, 0.0, 0.0, self.struct.speed)
+        x, y = point.position
+        prepared_tangent(self.film)(x, y, 0.0, 0.0, self.struct.speed)
 
 
 def _target(
@@ -493,7 +494,8 @@ def _target(
     call, x, y = compiled_force(film), float(load[0]), float(load[1])
     near = rest_place(film, (x, y), speed) if told else None
     used = call or _called_back(film)
-    struct = structure("rf_static_target")(
+    kind: Any = structure("rf_static_target")
+    struct = kind(
         used.address,
         used.data,
         film.clearance,

@@ -16,7 +16,7 @@ from .linearize import checked_vector, control_system
 from .threads import one_blas_thread
 
 
-class ModelSystem(control.NonlinearIOSystem):
+class ModelSystem(control.NonlinearIOSystem):  # type: ignore[misc]  # control has no types
     """A Model seen by python-control; see `to_nlsys`.
 
     Parameters

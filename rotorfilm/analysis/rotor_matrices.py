@@ -193,6 +193,12 @@ CONVERGED = 1e-12
 ROUNDED, PATIENCE = 1e-9, 6
 """The same after so many steps: roundoff of fine meshes is larger."""
 
+BESIDE = 1e-11
+"""Relative distance of a shift from an eigenvalue that is known: on it, the matrix may have a pivot of 0."""
+
+KNOWN = 3e-10
+"""Relative distance of an eigenvalue from a start that was one already, as of a system with all states."""
+
 _STEPS = 25
 
 
@@ -242,9 +248,11 @@ def whirl_near(
     # On an eigenvalue itself L has no inverse.
     shift = value * (1.0 + 1e-9)
     found, right, left = inverse_steps(system_at(shift), shift, load, load, 3)[-1]
+    if abs(found - value) <= KNOWN * abs(found):
+        return found, right, left  # its error is of second order in that distance
     for step in range(_STEPS):
         before = found
-        found, right, left = inverse_steps(system_at(found), found * (1.0 + 1e-13), right, left, 1)[-1]
+        found, right, left = inverse_steps(system_at(found), found * (1.0 + BESIDE), right, left, 1)[-1]
         if abs(found - before) < (CONVERGED if step < PATIENCE else ROUNDED) * abs(found):
             return found, right, left
     raise ConvergenceError(f"whirl near {value:.6g} rad/s must be found by inverse iteration, and was not")
@@ -277,7 +285,7 @@ class LeftOut:
         self.felt = felt @ shapes
         self.seen = self.places @ shapes
         starts, ends = (
-            _unbalanced(np.hstack([first, *(piece @ shapes for piece in matrices), felt.T]), shapes, heavy)
+            unbalanced(np.hstack([first, *(piece @ shapes for piece in matrices), felt.T]), shapes, heavy)
             for first, matrices in ((loads, pieces), (self.places.T, [piece.T for piece in pieces]))
         )
         self.energies = ends.T @ model.answer(starts)
@@ -338,7 +346,7 @@ def _weights(speed: float, frequency: float) -> list[complex]:
     return [s**2, s, s * speed, 1.0, speed, (1.0 - share) * np.sign(speed), 1j * share]
 
 
-def _unbalanced(forces: Array, shapes: Array, heavy: Array) -> Array:
+def unbalanced(forces: Array, shapes: Array, heavy: Array) -> Array:
     """Return forces less what the shapes take of them: nothing is lost of those that no shape feels."""
     return np.asarray(forces - heavy @ (shapes.T @ forces))
 

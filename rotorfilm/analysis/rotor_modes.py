@@ -5,26 +5,30 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import PchipInterpolator
 from scipy.linalg import eig
-from scipy.optimize import brentq, linear_sum_assignment
+from scipy.optimize import linear_sum_assignment
 
-from ..core.errors import ConvergenceError, InputError, require_finite, require_number, require_positive
+from ..core.errors import (
+    ConvergenceError,
+    InputError,
+    require_finite,
+    require_number,
+    require_positive,
+)
 from ..core.frames import Column, ResultTable
 from ..core.inputs import arguments
 from ..core.model import Array
 from ..core.port import Bearings
-from ..core.progress import Report, silent
 from ..core.readable import Drawable, Readable, table_of
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure
 from .critical import Crossing, crossings
-from .frequency_dependent import frequency_dependent_motion, require_all_growing
+from .frequency_dependent import frequency_dependent_motion
 from .modal_reduction import (
     COUNTS,
     TOLERANCE,
@@ -44,7 +48,6 @@ from .rotor_matrices import (
     rest_near,
     roundoff,
     small_motion,
-    value_error,
     whirl_errors,
 )
 from .threads import one_blas_thread
@@ -245,8 +248,10 @@ def motions_at(
     speed = require_number("speed", speed)
     require_range(highest_frequency)
     known_to = highest_frequency if highest_frequency < math.inf else usual_frequency(rotor, speed)
+    reach = _FAR * highest_frequency
     found = (
-        _motions(model, rest(model.structure, bearings, speed), known_to) for model in models(rotor, known_to)
+        _motions(model, rest(model.structure, bearings, speed), known_to, reach)
+        for model in models(rotor, known_to)
     )
     return next(motions for motions in found if motions.error <= TOLERANCE)
 
@@ -279,9 +284,16 @@ def whirls_of(motions: RotorModes, highest_frequency: float = math.inf) -> Rotor
     )
 
 
-def _motions(model: Condensed, at: RotorEquilibrium, known_to: float) -> RotorModes:
-    """Return the motions of a model of a rotor, in the coordinates of the whole."""
-    parts = [_part(model, at, part, known_to) for part in _bands(model.structure, abs(at.speed))]
+_FAR = 4.0
+"""Frequency with synchronous K and C, over the highest one asked for, beyond which motions are left out."""
+
+
+def _motions(model: Condensed, at: RotorEquilibrium, known_to: float, reach: float = math.inf) -> RotorModes:
+    """Return the motions of a model of a rotor, in the coordinates of the whole.
+
+    On frequency-dependent films those beyond a frequency `reach` [rad/s] are left out.
+    """
+    parts = [_part(model, at, part, known_to, reach) for part in bands_of(model.structure, abs(at.speed))]
     values, vectors, errors, rounded = zip(*parts, strict=True)
     shapes = np.hstack(vectors)
     return RotorModes(
@@ -323,13 +335,14 @@ Part = tuple[NDArray[np.complex128], NDArray[np.complex128], float, Array]
 """Eigenvalues of such a band, rising in frequency, shapes, largest relative error, roundoff of each."""
 
 
-def _bands(structure: Structure, turn: float) -> tuple[Band, ...]:
+def bands_of(structure: Structure, turn: float) -> tuple[Band, ...]:
+    """Return the bands of frequencies of a rotor that turns at a speed [rad/s]; one without hysteresis."""
     if structure.hysteresis is None:
         return ((0.0, 0.0, math.inf),)
     return (0.5 * turn, 0.0, turn), (2.0 * turn + 1.0, turn, math.inf)
 
 
-def _part(model: Condensed, at: RotorEquilibrium, band: Band, known_to: float) -> Part:
+def _part(model: Condensed, at: RotorEquilibrium, band: Band, known_to: float, reach: float) -> Part:
     """Return the eigenvalues of a band; not of motion that nothing holds."""
     frequency, low, high = band
     system = small_motion(model.structure, at, frequency)
@@ -343,7 +356,7 @@ def _part(model: Condensed, at: RotorEquilibrium, band: Band, known_to: float) -
     order = np.flatnonzero(chosen)[np.argsort(values.imag[chosen])]
     if frequency_dependent_films(at):
         return _frequency_dependent_part(
-            model, at, frequency, known_to, (values[order], shapes[:, order], rounded[order])
+            model, at, frequency, (known_to, reach), (values[order], shapes[:, order], rounded[order])
         )
     asked = [k for k in order if oscillates(values[k]) and abs(values[k]) <= known_to]
     error = 0.0
@@ -353,28 +366,45 @@ def _part(model: Condensed, at: RotorEquilibrium, band: Band, known_to: float) -
     return values[order].astype(complex), shapes[:, order].astype(complex), error, rounded[order]
 
 
+FURTHEST = 4.0
+"""Size of exponents with K and C of one frequency, over the highest frequency, beyond which those that decay
+are not followed to K(s): where they end is beyond it too."""
+
+
 def _frequency_dependent_part(
     model: Condensed,
     at: RotorEquilibrium,
     frequency: float,
-    known_to: float,
+    bounds: tuple[float, float],
     next_to: tuple[np.ndarray, np.ndarray, np.ndarray],
 ) -> Part:
     """Return the motions on frequency-dependent films next to those with K and C of one frequency.
+
+    The bounds are the frequencies up to which their error is asked for, and up to which they are.
 
     Whirl in which the states of a film take part as much as the shaft, as that of a body between two
     reactions, is next to none of these, but known where the states are.
     """
     found: list[tuple[complex, np.ndarray, float]] = []
-    error, (starts, shapes, rounded) = 0.0, next_to
-    own, ways = joined_whirls(model.structure, at)
-    known = all(hasattr(film.dynamic_stiffness, "at") for film in frequency_dependent_films(at).values())
-    given = zip([*starts, *own], np.hstack([shapes, ways]).T, [*rounded, *np.zeros(len(own))], strict=True)
+    (known_to, reach), error, (starts, shapes, rounded) = bounds, 0.0, next_to
+    told = [hasattr(film.dynamic_stiffness, "at") for film in frequency_dependent_films(at).values()]
+    known = all(told)
+    # Without states that are known the joined system is that of the starts.
+    own, ways = joined_whirls(model.structure, at) if any(told) else (starts[:0], shapes[:, :0])
+    joined = known and model.structure.hysteresis is None
+    partner = _continued((starts, shapes), (own, ways), model.structure.mass) if joined else {}
+    alone = [k for k in range(len(starts)) if k not in partner]
+    roundings = np.zeros(len(own))
+    roundings[list(partner.values())] = rounded[list(partner)]
+    begun, ways_of_all = np.concatenate([starts[alone], own]), np.hstack([shapes[:, alone], ways])
+    given = zip(begun, ways_of_all.T, [*rounded[alone], *roundings], strict=True)
     for k, (start, shape, rounding) in enumerate(given):
+        if start.imag > reach or (start.real < 0.0 and abs(start) > FURTHEST * known_to):
+            continue
         try:
             one = frequency_dependent_motion(model.structure, at, frequency, complex(start), shape)
         except ConvergenceError:
-            if known and k < len(starts):  # those that matter are among the eigenvalues with all states
+            if known and k < len(alone):  # those that matter are among the eigenvalues with all states
                 continue
             raise
         if one is None or _is_among(one[0], one[1], found):
@@ -389,6 +419,25 @@ def _frequency_dependent_part(
     values = np.array([value for value, *_ in found], dtype=complex)
     right = np.array([vector for _, vector, _ in found], dtype=complex).reshape(-1, len(shapes))
     return values, right.T, error, np.array([rounding for *_, rounding in found])
+
+
+_ALIKE = 0.1
+"""Difference of two eigenvalues, over the sum of their sizes, below which one may continue the other."""
+
+
+def _continued(
+    starts: tuple[np.ndarray, np.ndarray], own: tuple[np.ndarray, np.ndarray], mass: Any
+) -> dict[int, int]:
+    """Return which motion with all states of the films each of the `starts` leads to, where that is clear.
+
+    Both are eigenvalues and shapes.
+    """
+    before, after = (
+        RotorModes(speed=0.0, eigenvalues=values, shapes=shapes, direction=values.real)
+        for values, shapes in (own, starts)
+    )
+    apart = np.abs(own[0][:, None] - starts[0]) / np.abs(own[0][:, None] + starts[0])
+    return {k: j for k, j in matches(before, after, mass).items() if apart[j, k] < _ALIKE}
 
 
 def _is_among(value: complex, shape: np.ndarray, found: list[tuple[complex, np.ndarray, float]]) -> bool:
@@ -744,272 +793,3 @@ def tracked(points: list[RotorModes], mass: Any) -> list[dict[int, int]]:
             tracks[following[-1]][column] = k
         current = following
     return tracks
-
-
-# The speeds at which a rotor on its films loses or gains stability.
-
-
-NEUTRAL = 1e-9
-"""Growth rate / frequency that is roundoff."""
-
-FURTHER = 1e-6
-"""Part of a step by which a motion is seen to grow beyond its threshold."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class RotorThreshold(Readable):
-    """The speed at which small motion of a rotor begins to grow, or the reason why there is none.
-
-    Attributes
-    ----------
-    speed : float or None [rad/s]
-    whirl_frequency : float or None [rad/s]
-        0 where the rotor departs to one side instead of whirling (divergence).
-    whirl_ratio : float or None [1]
-        whirl_frequency / |speed|.
-    direction : float or None [1]
-        Direction as in `RotorModes`.
-    reason : str
-        Empty, or why there is no threshold.
-    speed_error : float or None [rad/s]
-        Estimated error of the speed by the neglected shapes; 0 if there are none.
-    work : dict of str to int
-        Work as `RotorModes.work`.
-    """
-
-    speed: float | None = None
-    whirl_frequency: float | None = None
-    whirl_ratio: float | None = None
-    direction: float | None = None
-    reason: str = ""
-    speed_error: float | None = None
-    work: dict[str, int] = field(default_factory=dict, compare=False)
-
-
-@dataclass(frozen=True, kw_only=True)
-class StabilityChange(Readable):
-    """A speed at which a motion of a rotor begins or ceases to grow.
-
-    Attributes
-    ----------
-    speed : float [rad/s]
-    whirl_frequency : float [rad/s]
-        0 where the rotor departs to one side instead of whirling (divergence).
-    direction : float [1]
-        Direction as in `RotorModes`.
-    growing : int [1]
-        Number of growing eigenvalues beyond this speed, in the order searched: two for a whirl, one for a
-        divergence. 0 if the rotor is stable again.
-    speed_error : float [rad/s]
-        Speed error as in `RotorThreshold`.
-    """
-
-    speed: float
-    whirl_frequency: float
-    direction: float
-    growing: int
-    speed_error: float = 0.0
-
-
-@one_blas_thread
-@arguments
-def rotor_threshold(
-    rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike, *, report: Report = silent
-) -> RotorThreshold:
-    """Return the first of a range of speeds at which a rotor on its films loses stability.
-
-    Parameters
-    ----------
-    rotor, bearings
-        As in `rotor_modes`.
-    speeds : array_like, shape (n,) [rad/s]
-        Rising or falling, of either sign, searched in this order. An instability that begins and ends within
-        one step is not found.
-    report : callable, optional
-        Called with the progress of the search: the share of the speeds that are done, and the next speed.
-        With frequency-dependent films each speed takes seconds.
-
-    Notes
-    -----
-    Whirl that grows and divergence, a real eigenvalue above zero, both end stability.
-
-    A rotor of more than 160 coordinates moves in few of its shapes, as in `rotor_modes`: its eigenvalues s
-    have an estimated error of up to 1e-6 |s|, up to the frequency named there. There is no estimate for
-    faster motions. The error of the speed is the error of s divided by the slope of Re s over the speed,
-    `speed_error`.
-
-    With frequency-dependent films the exponents are those with K(s). At each given speed the growing
-    exponents are also counted by the phase of the determinant along all frequencies, so none is missed.
-
-    Raises
-    ------
-    ConvergenceError
-        If that count is another than that of the exponents found.
-    """
-    search = _Stability(whirling(rotor, bearings), bearings)
-    grid = speeds_in_turn(speeds)
-    with counted(*COUNTS) as work:
-        unstable = search.growing(float(grid[0])) > 0
-        found = None if unstable else next(search.changes(grid, report), None)
-    report(1.0, "")
-    if found is None:
-        reason = "unstable at the first speed given" if unstable else "stable at every speed given"
-        return RotorThreshold(reason=reason, work=dict(work))
-    return RotorThreshold(
-        speed=found.speed,
-        whirl_frequency=found.whirl_frequency,
-        whirl_ratio=found.whirl_frequency / abs(found.speed),
-        direction=found.direction,
-        speed_error=found.speed_error,
-        work=dict(work),
-    )
-
-
-@one_blas_thread
-@arguments
-def stability_changes(
-    rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike, *, report: Report = silent
-) -> TupleWithOperations[StabilityChange]:
-    """Return every speed of a range at which a motion of a rotor on its films begins or ceases to grow.
-
-    Parameters
-    ----------
-    rotor, bearings
-        As in `rotor_modes`.
-    speeds : array_like, shape (n,) [rad/s]
-        Rising or falling, of either sign, searched in this order. A motion that begins and ceases to grow
-        within one step is not found.
-    report : callable, optional
-        As in `rotor_threshold`.
-
-    Returns
-    -------
-    TupleWithOperations
-        A tuple of `StabilityChange` with the counters `work`.
-
-    Notes
-    -----
-    The eigenvalues with a positive real part are counted at each speed, and where the number changes from m
-    to n, growth number m + 1 to n, by falling growth, vanishes in between: no whirl has to be followed. The
-    speeds have the error of `rotor_threshold`.
-    """
-    with counted(*COUNTS) as work:
-        found = list(_Stability(whirling(rotor, bearings), bearings).changes(speeds_in_turn(speeds), report))
-    report(1.0, "")
-    return TupleWithOperations(found, work)
-
-
-def first_growing(rotor: FlexibleRotor, bearings: Bearings, speeds: Array) -> tuple[float, complex] | None:
-    """Return the lowest of rising speeds at which a motion grows, and its eigenvalue; None where none does.
-
-    Growth at the highest speed tells whether there is one, and halving which is the first: growth that ceases
-    again within the range goes unseen.
-    """
-    rotor = whirling(rotor, bearings)
-
-    def growing(speed: float) -> NDArray[np.complex128]:
-        motions = motions_at(rotor, bearings, speed)
-        values = motions.eigenvalues
-        return values[motions.grows & (values.real > NEUTRAL * (np.abs(values) + speed))]
-
-    found = growing(float(speeds[-1]))
-    if not found.size:
-        return None
-    low, high = -1, len(speeds) - 1
-    while high - low > 1:
-        middle = (low + high) // 2
-        one = growing(float(speeds[middle]))
-        low, high, found = (low, middle, one) if one.size else (middle, high, found)
-    return float(speeds[high]), complex(found[np.argmax(found.real)])
-
-
-class _Growth(NamedTuple):
-    """How much each eigenvalue grows, falling, and to which motion it belongs; a whirl has two."""
-
-    rates: Array
-    places: NDArray[np.intp]
-    motions: RotorModes
-
-    @property
-    def growing(self) -> int:
-        """Number of eigenvalues that grow."""
-        return int(np.sum(self.rates > NEUTRAL))
-
-    def rate(self, k: int) -> float:
-        """Return growth number k from the largest."""
-        return float(self.rates[k]) if k < len(self.rates) else -1.0
-
-
-class _Stability(NamedTuple):
-    """The search for changes of stability of a rotor on its films."""
-
-    rotor: FlexibleRotor
-    bearings: Bearings
-
-    def growth(self, speed: float) -> _Growth:
-        """Return Re s / |s| of whirls; of others Re s / (|s| + |speed|), which divergence takes through 0."""
-        motions = motions_at(self.rotor, self.bearings, speed)
-        values, whirls = motions.eigenvalues, oscillates(motions.eigenvalues)
-        size = np.abs(values) + np.where(whirls, 0.0, abs(motions.speed))
-        rates = values.real / size
-        places = np.repeat(np.argsort(-rates), np.where(whirls, 2, 1)[np.argsort(-rates)])
-        return _Growth(rates[places], places, motions)
-
-    def growing(self, speed: float) -> int:
-        """Return how many eigenvalues grow at a speed."""
-        return self._counted(speed).growing
-
-    def _counted(self, speed: float) -> _Growth:
-        """Return what grows at a speed, with a proof on frequency-dependent films that it is all."""
-        found = self.growth(speed)
-        require_all_growing(self.rotor, self.bearings, speed, found.motions.eigenvalues, found.growing)
-        return found
-
-    def changes(self, speeds: Array, report: Report) -> Iterator[StabilityChange]:
-        """Yield the changes of a grid of speeds in its order."""
-
-        def looked_at() -> Iterator[_Growth]:
-            for done, speed in enumerate(speeds.tolist()):
-                report(done / len(speeds), f"what grows at {speed:.4g} rad/s")
-                yield self._counted(speed)
-
-        for low, high in pairwise(looked_at()):
-            yield from self._between(low, high)
-
-    def _between(self, low: _Growth, high: _Growth) -> Iterator[StabilityChange]:
-        """Yield the changes of a step, in its order."""
-        first, last = sorted((low.growing, high.growing))
-        events, k = [], first
-        while k < last:
-            events.append(self._change(k, low, high))
-            k += 2 if events[-1].whirl_frequency else 1
-        growing = low.growing
-        for event in sorted(events, key=lambda one: abs(one.speed - low.motions.speed)):
-            number = 2 if event.whirl_frequency else 1
-            growing += number if high.growing > low.growing else -number
-            yield replace(event, growing=growing)
-
-    def _change(self, k: int, low: _Growth, high: _Growth) -> StabilityChange:
-        """Return where growth number k vanishes between two speeds.
-
-        Whirl that nothing damps or drives has roundoff of either sign, so the search is for a growth above
-        it; from there, and from a speed a little further, the line through 0 is drawn.
-        """
-        ends, grown = (low.motions.speed, high.motions.speed), max(low, high, key=lambda one: one.growing)
-        speed = float(brentq(lambda w: self.growth(w).rate(k) - NEUTRAL, *ends, rtol=1e-13))
-        further = self.growth(speed + FURTHER * (grown.motions.speed - speed))
-        place, rise = further.places[k], further.rate(k) - NEUTRAL
-        slope = abs(rise / (further.motions.speed - speed))
-        if rise > 0.0:
-            speed -= NEUTRAL / rise * (further.motions.speed - speed)
-        motions = further.motions
-        whirls, value = oscillates(motions.eigenvalues)[place], complex(motions.eigenvalues[place])
-        change = value_error(self.rotor, self.bearings, motions.speed, value)
-        size = abs(value) + (0.0 if whirls else abs(motions.speed))
-        return StabilityChange(
-            speed=speed,
-            whirl_frequency=float(motions.frequency[place]) if whirls else 0.0,
-            direction=float(motions.direction[place]),
-            growing=0,
-            speed_error=change / (size * slope) if change else 0.0,
-        )

@@ -316,7 +316,7 @@ def _accepted(system: Coupled, solver: OdeSolver) -> Iterator[Step]:
     while solver.status == "running":
         system.furthest = solver.t
         message = solver.step()
-        if solver.status == "failed":
+        if solver.status == "failed":  # type: ignore[comparison-overlap]  # a step changes it
             raise ConvergenceError(f"integration failed at t = {solver.t:.9g} s: {message}")
         system.work["steps"] += 1
         yield Step(solver.t_old, solver.t, solver.y.copy(), solver.dense_output())

@@ -28,7 +28,8 @@ from .rotor_matrices import (
     second_order,
     whirl_near,
 )
-from .rotor_modes import NEUTRAL, RotorModes, critical_speeds, rotor_modes, rotor_threshold
+from .rotor_modes import RotorModes, critical_speeds, rotor_modes
+from .rotor_thresholds import NEUTRAL, rotor_threshold
 
 NEAR = 1.1
 """Critical speeds up to so many times the first are followed with it."""

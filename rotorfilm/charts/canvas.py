@@ -79,7 +79,7 @@ def place_labels(
     points = axes.transData.transform([(label.x, label.y) for label in labels] + list(obstacles))
     taken = [_around(point, MARKER * pixels, MARKER * pixels) for point in points]
     frame = axes.get_window_extent()
-    renderer = FigureCanvasAgg(figure).get_renderer()
+    renderer = FigureCanvasAgg(figure).get_renderer()  # type: ignore[no-untyped-call]
     for label, point in zip(labels, points[: len(labels)], strict=True):
         text = axes.annotate(
             label.text,

@@ -59,6 +59,7 @@ def plain_rotor(answer: RotorAnswer) -> dict[str, Any]:
         "states": answer.states,
         "loads": to_plain(dict(answer.loads)),
         "moments": to_plain(dict(answer.moments)),
+        "axial_loads": dict(answer.axial_loads),
         "residual": answer.residual,
         "critical_speeds": to_plain(list(answer.critical_speeds)),
         "threshold": to_plain(answer.threshold),

@@ -58,7 +58,12 @@ def _print_running(result: DemoResult) -> None:
         ("temperature", supply, running),
     ]
     console.plain_console().print()
-    console.print_columns(("the bearing", "of the textbook", "as it runs"), rows)
+    console.print_columns(("the bearing", "with one viscosity", "with warm oil"), rows)
+    rise = warm.temperature - warm.supply_temperature
+    console.plain_console().print(
+        "The rise under 'left out' is that of oil that stays as viscous as it is fed. Warm oil is thinner, "
+        f"so its film makes less heat and lets more oil flow: it settles {rise:.0f} K above the supply."
+    )
 
 
 def print_demo(result: DemoResult) -> None:
@@ -66,7 +71,7 @@ def print_demo(result: DemoResult) -> None:
     print_answer(result.scene.title, result.answer)
     _print_running(result)
     runs, limit, order = result.coupling.runs, result.critical_macro_angle, result.coupling.observed_order
-    table = console.plain_table("coupled FMUs beside the monolithic solution")
+    table = console.plain_table("two coupled FMUs, compared with rotor and film as one system")
     for heading in ("macro step", "spectral radius", "orbit error / clearance", "time"):
         table.add_column(heading, justify="right")
     table.add_column("")
@@ -84,7 +89,7 @@ def print_demo(result: DemoResult) -> None:
     ]
     if result.refusal_run is not None and limit is not None:
         times = result.refusal_run.macro_angle / limit
-        rows.append(("too long on purpose", f"{times:.3g} x the limit: must be refused"))
+        rows.append(("too long on purpose", f"{times:.3g} times this limit, which must be refused"))
     rows += [
         ("order of convergence", "not observed" if order is None else f"{order:.3f}"),
         ("refused", "; ".join(run.refused for run in runs if run.refused) or "no run"),

@@ -149,12 +149,19 @@ def require_kind(name: str, value: Any, kind: Any, expected: str) -> None:
     if not getattr(kind, "_is_protocol", False):
         missing = [] if isinstance(value, kind) else [""]
     else:
-        # The protocol's own check asks every property of the value, and some of them are slow.
-        cls: Any = type(value)
-        missing = [member for member in lacking(cls, kind) if not hasattr(value, member)]
+        missing = lacked(value, kind)
     if missing:
         without = f" without {', '.join(missing)}" if missing[0] else ""
         raise InputError(f"{name} must be {expected}, got {brief(value)}{without}")
+
+
+def lacked(value: object, protocol: Any) -> list[str]:
+    """Return the members of a protocol that a value does not have.
+
+    The protocol's own check asks every property of the value, and some of them are slow.
+    """
+    cls: Any = type(value)
+    return [member for member in lacking(cls, protocol) if not hasattr(value, member)]
 
 
 @cache

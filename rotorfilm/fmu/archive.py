@@ -32,17 +32,27 @@ COMPILED = {".so", ".dll", ".dylib"}
 """Files that run on one platform."""
 
 VERIFIED = "0.7.0"
-"""The version of pythonfmu for which `python/slave.py` counts references."""
+"""The version of pythonfmu for which `python/slave.py` counts references; up to 0.6.9 hosts crash."""
+
+VERIFIED_LIBRARIES = "7ffef76339110ef4"
+"""First digits of the SHA-256 of its libraries, which a later version may have too."""
 
 
 def require_verified_version() -> None:
-    """Raise FmuError unless the installed pythonfmu is the one that `python/slave.py` was verified for.
+    """Raise FmuError unless pythonfmu has the libraries that `python/slave.py` was verified for.
 
     With libraries that count differently, the references it takes would leak instances, or crash the host.
     """
-    installed = version("pythonfmu")
-    if installed != VERIFIED:
-        raise FmuError(f"pythonfmu must be {VERIFIED} to export an FMU, got {installed}")
+    installed, folder = version("pythonfmu"), files("pythonfmu").joinpath("resources", "binaries")
+    if installed == VERIFIED:
+        return
+    libraries = [folder.joinpath(name) for name in BINARIES]
+    content = b"".join(library.read_bytes() for library in libraries if library.is_file())
+    if hashlib.sha256(content).hexdigest()[:16] != VERIFIED_LIBRARIES:
+        raise FmuError(
+            f"pythonfmu must be {VERIFIED}, or a version with the same libraries, to export an FMU, "
+            f"got {installed}"
+        )
 
 
 def to_zip(contents: Mapping[str, bytes]) -> bytes:

@@ -178,7 +178,7 @@ def _unknowns(model: Model, t: float, x: Array, u: Array) -> Array:
     return np.concatenate([model.output(t, x, u), slopes])
 
 
-def _nominal(signals: tuple) -> Array:
+def _nominal(signals: Sequence[Scalar]) -> Array:
     return np.array([signal.nominal for signal in signals])
 
 

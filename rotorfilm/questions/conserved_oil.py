@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ..analysis import equilibrium
 from ..analysis.coefficients import film_coefficients
 from ..bearings.journal import RUPTURE_CELLS, JFOFilm, JournalBearing, both_films, extrapolated_value
-from ..core.answers import HEATED, ISOTHERMAL, ErrorEstimate, Ladder, Rung, RungResult
+from ..core.answers import HEATED, ISOTHERMAL, ErrorEstimate, Ladder, LeftOutRemark, Rung, RungResult
 from ..core.errors import InputError, RotorfilmError
 from ..core.port import at_balanced_temperature
 from ..core.results import Equilibrium
@@ -29,11 +29,12 @@ from ..scenes.film_rungs import (
     maximum_pressure,
     tangent,
 )
+from ..scenes.journal_tables import ConservingTable
+from ..scenes.turbulent import quick
 from .heat_levels import field_rung
 from .variants import FunctionRung, counted_rung, with_estimate
 
 if TYPE_CHECKING:
-    from ..scenes.journal_tables import JournalTable
     from ..scenes.scene import Scene
 
 CANCELED = 0.5
@@ -159,17 +160,20 @@ NO_RUNG = (
 )
 
 
-TURBULENT = (
-    "conservation of oil: in the estimate, by the laminar film; a scene that names the film jfo conserves "
-    "that of the turbulent one"
+LEFT_OUT, SMALL = "conservation of oil", 0.01
+"""Name of the effect, and the change of an answer below which a bearing of pads says nothing of it."""
+
+OF_PADS = (
+    'conservation of oil: with film = {{name = "jfo"}}, which conserves it where the films of the pads '
+    "rupture, the answer is {share:.2g} away"
 )
 
 
-def supply_of(table: JournalTable, bearing: JournalBearing) -> str | None:
+def supply_of(table: ConservingTable, bearing: Any) -> str | None:
     """Return why the oil of a bearing cannot be conserved, empty if it can; None without an opening."""
     if bearing.geometry.plain:
         return None
-    if table.tilt is not None:
+    if getattr(table, "tilt", None) is not None:
         return "the journal keeps a tilt"
     try:
         table.conserved(bearing)
@@ -181,36 +185,47 @@ def supply_of(table: JournalTable, bearing: JournalBearing) -> str | None:
 def conserved_oil(scene: Scene, question: Any, films: Sequence[FilmCandidate], ladder: Ladder) -> Ladder:
     """Return a ladder by Reynolds rupture whose estimates count the conservation of the oil.
 
-    On them stand the rungs that conserve it, unless the scene names the film, or the question has none. The
-    estimates of turbulent films count the conservation of the laminar film's oil, which is not a bound.
+    On them stand the rungs that conserve it, unless the scene names the film, or the question has none. Of
+    lobed and pressure-dam bearings a remark has what it changes.
     """
-    table = scene.journal
-    if table is None:
+    table: Any = scene.film_table
+    if not isinstance(table, ConservingTable):
         return ladder
-    bearing = scene.journal_bearing
-    is_turbulent = bearing.turbulence is not None
-    if is_turbulent:
-        bearing = replace(bearing, turbulence=None)
+    bearing = table.bearing()
     reason = supply_of(table, bearing)
     if reason is None:
         return ladder
     if reason:
         return replace(ladder, remarks=(*ladder.remarks, NOT_JUDGED.format(reason=reason)))
+    if scene.journal is None:
+        return replace(ladder, remarks=(*ladder.remarks, *_left_out(question, bearing)))
     token, change = object(), question.conservation(bearing)
 
     def ruptured(rung: Rung) -> FunctionRung:
         def estimate(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
-            about = with_change(rung.estimate(found, before, tolerance), found, change, question.distance)
-            return about._replace(bound=about.bound and not is_turbulent)
+            return with_change(rung.estimate(found, before, tolerance), found, change, question.distance)
 
         return with_estimate(rung, estimate, token)
 
     rungs = tuple(ruptured(rung) for rung in ladder.rungs)
-    if is_turbulent or not question.follows_oil:
-        said = TURBULENT if is_turbulent else NO_RUNG
-        return replace(ladder, rungs=rungs, remarks=(*ladder.remarks, said))
+    if not question.follows_oil:
+        return replace(ladder, rungs=rungs, remarks=(*ladder.remarks, NO_RUNG))
     above = () if scene.film_is_given else conserved_rungs(scene, question)
     return replace(ladder, rungs=(*rungs, *above))
+
+
+def _left_out(question: Any, bearing: Any) -> tuple[str, ...]:
+    """Return what the conservation of oil changes in an answer about pads at rest; nothing of others."""
+    if question.moves or not question.is_at_rest:
+        return ()
+    try:
+        changed = change_at_rest(question, bearing)
+    except RotorfilmError as error:
+        return (NOT_JUDGED.format(reason=error),)
+    share = question.distance(changed.own, changed.better)
+    if share < SMALL:
+        return ()
+    return (LeftOutRemark(OF_PADS.format(share=share), LEFT_OUT, share),)
 
 
 # Films that conserve their oil, each judged by coarser cells.
@@ -225,11 +240,12 @@ SECONDS = {CELLS[0]: 0.01, CELLS[1]: 0.03, CELLS[2]: 0.15}
 
 def conserved_ladder(scene: Scene, question: Any) -> Ladder:
     """Return the ladder of a scene whose film conserves its oil."""
+    table: Any = scene.film_table
     return Ladder(
         rungs=conserved_rungs(scene, question),
         unit=question.unit,
         remarks=scene.film_remarks,
-        within=HEATED if scene.journal_bearing.is_warming else ISOTHERMAL,
+        within=HEATED if table.bearing().is_warming else ISOTHERMAL,
         distance=question.distance,
     )
 
@@ -239,15 +255,15 @@ def conserved_rungs(scene: Scene, question: Any) -> tuple[FunctionRung, ...]:
 
     They have the cells of the scene, if it names such a film.
     """
-    table, bearing = scene.journal, scene.journal_bearing
-    assert table is not None  # whose question it is
+    table: Any = scene.film_table
+    bearing = table.bearing()
     own = table.film is not None and table.conserves
     films = [table.conserved(bearing, cells) for cells in ((None,) if own else CELLS)]
     if not (bearing.is_warming and question.follows_oil):
         return tuple(conserved_rung(question, film) for film in films)
     heat = partial(_heat_of_balance, question, films[0])
     uniform = tuple(conserved_rung(question, film, heat) for film in films)
-    levels = () if bearing.turbulence is not None else question.levels  # a `HeatedJFOFilm` is laminar
+    levels = () if bearing.turbulence is not None else question.levels
     return (*uniform, *(field_rung(question, level, any_candidate(films[0])) for level in levels))
 
 
@@ -290,10 +306,14 @@ def _other(cells: int, least: int) -> int:
 
 
 def _heat_of_balance(question: Any, film: JFOFilm) -> ErrorEstimate:
-    """Return the error by heat of a film of one temperature that conserves its oil."""
+    """Return the error by heat of a film of one temperature that conserves its oil.
+
+    A turbulent film has temperatures over it by Reynolds rupture only.
+    """
+    known: Any = film if film.bearing.turbulence is None else quick(film.bearing)
     try:
-        own = uniform_rest(film, question.load, question.speed)
-        steps = HeatSteps(film, own)
+        own = uniform_rest(known, question.load, question.speed)
+        steps = HeatSteps(known, own)
         found = question.judge.error(own, steps)
     except RotorfilmError as error:
         return ErrorEstimate(math.inf, "not known", doubt=f"its error by heat is not known: {error}")

@@ -16,7 +16,7 @@ from ..core.errors import CouplingError, InputError, RotorfilmError
 from ..core.units import CELSIUS
 from ..cosim import Scheme
 from ..cosim.coupling_error import SCHEMES, CouplingCase
-from ..scenes.journal_tables import has_map
+from ..scenes.journal_tables import has_map, require_law
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -168,8 +168,7 @@ def _case(scene: Scene, quantity: str) -> CouplingCase:
             raise InputError(f"damper.supply must be left out for {quantity}, got {scene.damper.supply!r}")
         centered = table.build(scene.speed, (0.0, 0.0))
         return CouplingCase(rotor=centered, reaction=scene.damper.plain(), revolutions=turns)
-    if scene.journal is not None:
-        scene.journal.require_law(quantity)
+    require_law(scene.film_table, quantity)
     load, name = scene.static_load, ""
     film: Any = scene.bearing
     if scene.journal is not None and not (scene.film_is_given or has_map(film)):

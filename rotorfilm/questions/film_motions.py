@@ -37,6 +37,7 @@ from ..core.port import Reaction, amplitude_ratio
 from ..core.results import Coefficients
 from ..rotors import RigidRotor
 from ..scenes.film_rungs import FilmCandidate, any_candidate
+from ..scenes.journal_tables import require_law
 from ..scenes.shared_tables import BladeLossTable, UnbalanceTable
 from .film_statics import FilmQuestion, Films, Units, film_ladder
 from .quantities import FORCE, ORBIT_UNITS, PHASE, relative
@@ -220,8 +221,7 @@ def motion_question(
 
 def _turn_films(films: Films, scene: Scene, quantity: str) -> Sequence[FilmCandidate]:
     """Return films for states all round a turn; InputError for one that conserves its oil."""
-    if scene.journal is not None:
-        scene.journal.require_law(quantity)
+    require_law(scene.film_table, quantity)
     return films(scene)
 
 

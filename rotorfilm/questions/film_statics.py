@@ -28,6 +28,7 @@ from ..core.errors import InputError, RotorfilmError
 from ..core.results import Equilibrium, WhirlThreshold
 from ..scenes.film_heat import FIELD_LEVELS, FieldLevel, RestJudge, WarmRest, uniform_rest
 from ..scenes.film_rungs import FilmCandidate, FilmRest, least_stable, whirl_growth, whirl_matrix
+from ..scenes.journal_tables import ConservingTable
 from ..scenes.solve_journal import conserved_threshold
 from .conserved_oil import Change, change_at_rest, coarse_films, conserved_ladder, conserved_oil, rest_on
 from .heat_levels import BALANCED, HeatLevel, WarmSolution, answer_below, heat
@@ -80,6 +81,8 @@ class FilmQuestion:
         Those with a temperature field.
     rests, field_rests : float
         Rests that an answer takes about, on films of one temperature and on those with a field.
+    is_at_rest : bool
+        Whether the quantity is one of a single rest, as `value` has it.
     """
 
     load: tuple[float, float]
@@ -100,6 +103,7 @@ class FilmQuestion:
     levels: ClassVar[tuple[FieldLevel, ...]] = FIELD_LEVELS
     rests: ClassVar[int] = 1
     field_rests: ClassVar[float] = 1.0
+    is_at_rest: ClassVar[bool] = True
 
     @cached_property
     def judge(self) -> RestJudge:
@@ -148,9 +152,9 @@ EFFECTS = [
 
 def film_ladder(scene: Scene, films: Films, question: FilmQuestion) -> Ladder:
     """Return the ladder of a question on films of one viscosity, with the effects that the scene has."""
-    if not question.moves and scene.journal is not None and scene.journal.conserves:
-        return turbulent_oil(scene, question, films(scene), conserved_ladder(scene, question))
     known = films(scene)
+    if not question.moves and getattr(scene.film_table, "conserves", False):
+        return turbulent_oil(scene, question, known, conserved_ladder(scene, question))
     rungs: list[Rung] = [question.make(film, count) for film in known for count in question.counts]
     if question.effort is not None:
         rungs.sort(key=question.effort)
@@ -169,7 +173,8 @@ def film_ladder(scene: Scene, films: Films, question: FilmQuestion) -> Ladder:
 
 def any_bearing(scene: Scene) -> Any:
     """Return the bearing with a film of a scene, on its oil; of a journal by Reynolds rupture."""
-    return scene.film_table.build() if scene.journal is None else scene.journal_bearing
+    table: Any = scene.film_table
+    return table.bearing() if isinstance(table, ConservingTable) else table.build()
 
 
 def film_units(films: Sequence[FilmCandidate], speed: float) -> Units:
@@ -407,7 +412,7 @@ class WhirlQuestion(FilmQuestion):
     secants : callable
         `rotorfilm.analysis.speed_events.secant_speed`.
     levels : tuple of FieldLevel
-    rests, field_rests : float
+    rests, field_rests, is_at_rest : float, float, bool
         As of any question.
     """
 
@@ -417,6 +422,7 @@ class WhirlQuestion(FilmQuestion):
     levels: ClassVar[tuple[FieldLevel, ...]] = FIELD_LEVELS[:2]
     rests: ClassVar[int] = SPEEDS
     field_rests: ClassVar[float] = 4.0
+    is_at_rest: ClassVar[bool] = False
 
     def uniform(
         self, level: HeatLevel, film: FilmCandidate, count: int, before: RungResult | None

@@ -331,7 +331,7 @@ PAD_STATICS = [name for name in QUANTITIES if name != "maximum_pressure"]
 
 
 def _all(scene: Scene) -> tuple[PadCandidate, ...]:
-    return lobed_candidates(scene.table("lobed_journal").build(), fixed=scene.film_is_given)
+    return lobed_candidates(scene.table("lobed_journal").bearing(), fixed=scene.film_is_given)
 
 
 LOBED = film_ladders(
@@ -346,7 +346,7 @@ LOBED = film_ladders(
 
 def _dam_films(scene: Scene, *, turns: bool = False) -> tuple[PadCandidate, ...]:
     scene = quasi_static_scene(scene) if turns else scene
-    return dam_candidates(scene.table("pressure_dam").build(), fixed=scene.film_is_given, turns=turns)
+    return dam_candidates(scene.table("pressure_dam").bearing(), fixed=scene.film_is_given, turns=turns)
 
 
 PRESSURE_DAM = film_ladders(_dam_films, partial(_dam_films, turns=True), [*PAD_STATICS, "maximum_pressure"])

@@ -276,7 +276,8 @@ def shaft_ladder_on(
         assumptions=lambda: shaft_assumptions(first),
         distance=first.distance,
     )
-    return turbulent_shaft(scene, first, made)
+    # what turbulence changes in a tilted film is said by the remarks alone
+    return made if first.films.tilted else turbulent_shaft(scene, first, made)
 
 
 # Flexible rotors on films of an oil: the films as fresh oil (T0) or as warm as the rotor's rest (T1).

@@ -43,6 +43,7 @@ def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
     rows = [("rotor", f"{answer.mass:.6g} kg, {answer.states} states")]
     rows += [(f"load on {name}", f"{np.hypot(*load):.6g} N") for name, load in answer.loads.items()]
     rows += [(f"moment on {name}", f"{np.hypot(*one):.6g} N m") for name, one in answer.moments.items()]
+    rows += [(f"axial load on {name}", f"{one:.6g} N") for name, one in answer.axial_loads.items()]
     rows += [
         (
             "critical speed",

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from .ross import (
         RossRotor as RossRotor,
         read_ross as read_ross,
+        read_ross_bearings as read_ross_bearings,
         to_ross as to_ross,
         to_ross_force as to_ross_force,
     )

@@ -18,6 +18,7 @@ from ..core.readable import Readable
 from ..core.results import Trajectory, orbit_distance
 from ..native.spec import HasKernel
 from .export_scene import at_rest_on_film, export_scene
+from .journal_tables import require_law
 from .reading import made_from
 from .scene import Scene
 from .shared_tables import require_steps
@@ -135,8 +136,8 @@ def run_scene(
         See `cosimulate`.
     """
     require_steps("operation.duration", scene.duration * abs(scene.speed), scene.cosimulation)
-    if scene.journal is not None:
-        scene.journal.require_law("a co-simulation")
+    if scene.has_film:
+        require_law(scene.film_table, "a co-simulation")
     report(0.0, "equilibrium, FMUs")
     result = _coupled(scene, scheme, part_of(report, 0.05, 0.75))
     report(0.75, "monolithic solution")

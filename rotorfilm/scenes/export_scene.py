@@ -47,7 +47,8 @@ def export_scene(
 
     These are `film.fmu` and `rotor.fmu`, both starting at the static equilibrium; of a scene with a damper
     `damper.fmu`, springs included, and `rotor.fmu`, at rest in the center. A flexible rotor is one
-    `system.fmu` with all its bearings, at rest in them; so is a rotor on a damper whose oil has mass.
+    `system.fmu` with all its bearings, at rest in them; so is a rotor on a damper whose oil has mass. A
+    thrust bearing is `thrust.fmu` alone, whose z is counted from its equilibrium under the axial load.
 
     Parameters
     ----------
@@ -84,6 +85,11 @@ def export_scene(
         end = 2.0 * np.pi / (abs(speed) or 1.0)  # a turn: what Python takes for it is some seconds
         files = {"system": "system"}
         parts: Mapping[str, tuple[Any, Mapping[str, float]]] = {"system": (model, {})}
+    elif scene.thrust is not None and not scene.has_film:
+        from .thrust import thrust_models  # another family, whose models no other scene needs
+
+        end = 2.0 * np.pi / (abs(scene.speed) or 1.0)
+        step, files, parts = 0.01 * end, {"thrust": "thrust"}, {"thrust": thrust_models(scene)}
     else:
         models = models_of(scene)
         files, parts = models.files, models.parts

@@ -6,7 +6,7 @@ import math
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from ..analysis import equilibrium
 from ..bearings import journal
@@ -45,7 +45,7 @@ from .reading import (
     takes,
 )
 from .shared_tables import Lubricant, OiledTable
-from .turbulent import AUTO, effect_of, read_turbulence, turbulent_remarks
+from .turbulent import AUTO, effect_of, read_turbulence, turbulent_remarks, without_oil
 
 ORDER = Count(FUNCTIONS)
 
@@ -62,7 +62,7 @@ def read_order(where: str, value: Any) -> tuple[int, int | None]:
 NODES = counts(("over", "turning", "moving"), MAP_NODES)
 """Reader of the nodes of a map with openings."""
 
-RUPTURES: dict[str, Callable[[], Keyed]] = {
+RUPTURES: dict[str, Callable[[], Keyed[Any]]] = {
     "fixed": lambda: keys_of(journal.FixedArc, "start", "extent"),
     "rotating": lambda: keys_of(journal.RotatingArc),
     "reynolds": lambda: keys_of(journal.ReynoldsArc, "start"),
@@ -122,12 +122,58 @@ FILMS: dict[str, Callable[[], Keyed[FilmLaw | ConservedOil]]] = {
 """`film = {name = "map"}`: film laws by their names in scene files and at the command line."""
 
 
+class ConservingTable:
+    """The table of a bearing whose film may conserve its oil; it adds `film` and `bearing`."""
+
+    if TYPE_CHECKING:
+        film: Any
+        bearing: Any
+
+    @property
+    def conserves(self) -> bool:
+        """Whether the film is one that conserves its oil: named so, or with keys that no other takes."""
+        return isinstance(self.film, ConservedOil) or bool(self._supply_keys)
+
+    @property
+    def _supply_keys(self) -> list[str]:
+        return []
+
+    @property
+    def named_film(self) -> Any:
+        """The film law that the file names; None of one that conserves its oil."""
+        return None if isinstance(self.film, ConservedOil) else self.film
+
+    def require_law(self, what: str) -> None:
+        """Raise InputError if the film conserves its oil: it has no force in any motion, as that takes."""
+        if self.conserves:
+            raise InputError(
+                f"film must be a quasi-static film law such as map or reynolds for {what}, got a "
+                "mass-conserving (JFO) film"
+            )
+
+    def conserved(self, bearing: Any, cells: tuple[int, int] | None = None) -> JFOFilm:
+        """Return the film of a bearing that conserves its oil, on cells that by default are the file's."""
+        own = self.film if isinstance(self.film, ConservedOil) else ConservedOil()
+        return made_from(JFOFilm, self, bearing=bearing, cells=cells or own.cells)
+
+    def build(self) -> Any:
+        """Return the bearing, or its film that conserves the oil; InputError for a bad value."""
+        bearing = self.bearing()
+        return self.conserved(bearing) if self.conserves else bearing
+
+
+def require_law(table: Any, what: str) -> None:
+    """Raise InputError if the film of any table conserves its oil, which has no force in any motion."""
+    if isinstance(table, ConservingTable):
+        table.require_law(what)
+
+
 ANGLES = Several(Quantity("rad"), 2, 2, "two angles, about x and about y")
 
 
 @dataclass(frozen=True, kw_only=True)
 @fields_of(JournalBearing, JFOFilm, without=("bearing", "cells", "mobility"))
-class JournalTable(OiledTable):
+class JournalTable(ConservingTable, OiledTable):
     """`[journal]`: a cylindrical journal bearing, full unless it has pads or grooves.
 
     Supply flow, cavitation pressure and submerged ends are for a film that conserves its oil only.
@@ -177,11 +223,6 @@ class JournalTable(OiledTable):
         return self.film is not None
 
     @property
-    def conserves(self) -> bool:
-        """Whether the film is one that conserves its oil: named so, or with keys that no other takes."""
-        return isinstance(self.film, ConservedOil) or bool(self._supply_keys)
-
-    @property
     def _supply_keys(self) -> list[str]:
         given = {
             "supply_flow": self.supply_flow is not None,
@@ -190,17 +231,9 @@ class JournalTable(OiledTable):
         }
         return [name for name, there in given.items() if there]
 
-    def require_law(self, what: str) -> None:
-        """Raise InputError if the film conserves its oil: it has no force in any motion, as that takes."""
-        if self.conserves:
-            raise InputError(
-                f"journal.film must be a quasi-static film law such as map or reynolds for {what}, got a "
-                "mass-conserving (JFO) film"
-            )
-
     def bearing(self) -> JournalBearing:
         """Return the bearing, with its film law where the file names one; InputError for a bad value."""
-        named = None if isinstance(self.film, ConservedOil) else self.film
+        named = self.named_film
         if named is not None and self._supply_keys:
             raise InputError(
                 f'{self._supply_keys[0]} must be left out unless film is {{name = "jfo"}} or not given, '
@@ -209,17 +242,12 @@ class JournalTable(OiledTable):
         openings = (*self.grooves, *self.feed_holes)
         return made_from(JournalBearing, self, film=named, grooves=openings, turbulence=effect_of(self))
 
-    def conserved(self, bearing: JournalBearing, cells: tuple[int, int] | None = None) -> JFOFilm:
-        """Return the film of a bearing that conserves its oil, on cells that by default are the file's."""
-        own = self.film if isinstance(self.film, ConservedOil) else ConservedOil()
-        return made_from(JFOFilm, self, bearing=bearing, cells=cells or own.cells)
-
     def build(self) -> JournalBearing | JFOFilm | HeldTilt:
         """Return the bearing, its film that conserves the oil, or its tilted journal; InputError if bad."""
-        bearing = self.bearing()
         if self.tilt is not None:
-            return HeldTilt(journal=feeling_tilt(bearing, named=self.film is not None), tilt=self.tilt)
-        return self.conserved(bearing) if self.conserves else bearing
+            return HeldTilt(journal=feeling_tilt(self.bearing(), named=self.film is not None), tilt=self.tilt)
+        found: JournalBearing | JFOFilm = super().build()
+        return found
 
     def repeated_inputs(self, bearing: JournalBearing | JFOFilm | HeldTilt) -> tuple[BearingData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
@@ -228,7 +256,7 @@ class JournalTable(OiledTable):
             name = journal.film_name(inner.fitted_film)
             return bearing_data(inner), f"{name}, tilt at level {bearing.journal.level.value}"
         if isinstance(bearing, JFOFilm):
-            return bearing_data(bearing.bearing), f"JFOFilm(cells={bearing.cells})"
+            return bearing_data(bearing.bearing), film_of_cells(bearing)
         return bearing_data(bearing), journal.film_name(bearing.fitted_film)
 
     def remarks(
@@ -241,8 +269,8 @@ class JournalTable(OiledTable):
         """Return what its physics leaves out and should not; see `film_remarks`."""
         if isinstance(bearing, HeldTilt):
             return film_remarks(bearing.journal.bearing, oil, speed, load)
-        inner = bearing.bearing if isinstance(bearing, JFOFilm) else bearing
-        return (*turbulent_remarks(inner, speed, load), *film_remarks(bearing, oil, speed, load))
+        turbulent = turbulent_remarks(without_oil(bearing), speed, load)
+        return (*turbulent, *film_remarks(bearing, oil, speed, load))
 
     def make_map(self, report: Report) -> None:
         """Make the map of openings, where there are some and the film is one, unless it lies on disk."""
@@ -253,6 +281,11 @@ class JournalTable(OiledTable):
             return
         if isinstance(bearing.fitted_film, journal.GroovedMapFilm):
             journal.build_groove_map(bearing, report)
+
+
+def film_of_cells(film: JFOFilm) -> str:
+    """Return what a film that conserves its oil is called in print."""
+    return f"JFOFilm(cells={film.cells})"
 
 
 def feeling_tilt(bearing: JournalBearing, *, named: bool) -> MomentCarryingJournal:

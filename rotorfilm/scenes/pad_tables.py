@@ -10,15 +10,16 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 from ..analysis import equilibrium
 from ..bearings import pads as pad_bearings
 from ..bearings.films.turbulence import Turbulence
+from ..bearings.journal import JFOFilm
 from ..core.errors import InputError
 from ..core.progress import Report
 from ..core.readable import Readable
 from .families import isothermal, messages, remarks_of
 from .film_rungs import minimum_radial_clearance
-from .journal_tables import film_numbers, warmed
+from .journal_tables import FILMS, ConservedOil, ConservingTable, film_numbers, film_of_cells, warmed
 from .reading import Count, Keyed, Quantity, Several, Variant, fields_of, keys_of, made_from, one_of
 from .shared_tables import Lubricant, OiledTable
-from .turbulent import AUTO, effect_of, read_turbulence, turbulent_remarks
+from .turbulent import AUTO, effect_of, read_turbulence, turbulent_remarks, without_oil
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -31,6 +32,9 @@ PAD_FILMS: dict[str, Callable[[], Keyed[pad_bearings.PadFilm]]] = {
     "reynolds": lambda: keys_of(pad_bearings.PadGridFilm, "cells"),
 }
 """`film = {name = "map"}`: the films of a pad by their names."""
+
+JFO = {"jfo": FILMS["jfo"]}
+"""That of all fixed pads which conserves its oil."""
 
 
 def usual_film(extents: Iterable[float], radius: float, length: float) -> pad_bearings.PadFilm:
@@ -91,8 +95,10 @@ class PadTable(OiledTable):
         """Return the bearing; raise InputError where a value breaks its rule."""
         raise NotImplementedError
 
-    def repeated_inputs(self, bearing: AnyPads) -> tuple[PadData, str]:
+    def repeated_inputs(self, bearing: AnyPads | JFOFilm) -> tuple[PadData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
+        if isinstance(bearing, JFOFilm):
+            return echo_of_pads(self.data, bearing.bearing), film_of_cells(bearing)
         film: Any = bearing if isinstance(bearing, pad_bearings.PressureDamBearing) else bearing.film
         return echo_of_pads(self.data, bearing), pad_film_name(film)
 
@@ -100,7 +106,8 @@ class PadTable(OiledTable):
         self, bearing: AnyPads, oil: Lubricant, speed: float, load: tuple[float, float]
     ) -> tuple[str, ...]:
         """Return what its physics leaves out and should not."""
-        return (*turbulent_remarks(bearing, speed, load), *pad_remarks(bearing, oil, speed, load))
+        pads = without_oil(bearing)
+        return (*turbulent_remarks(pads, speed, load), *pad_remarks(pads, oil, speed, load))
 
     @property
     def film_is_given(self) -> bool:
@@ -110,7 +117,7 @@ class PadTable(OiledTable):
     def make_map(self, report: Report) -> None:
         """Make the maps of the pads, where the film is one, unless they lie on disk."""
         bearing = self.build()
-        film = getattr(bearing, "film", None)
+        film = bearing.film if hasattr(bearing, "extents") and hasattr(bearing, "film") else None
         if isinstance(film, pad_bearings.PadMapFilm):
             for extent in sorted(set(bearing.extents)):
                 film.table(extent, bearing.slenderness, report)
@@ -295,12 +302,12 @@ OF_PRESET = ("preload", "extent", "offset", "turned")
 
 @dataclass(frozen=True, kw_only=True)
 @fields_of(pad_bearings.lobe_set, without=("name",), optional=True)
-class LobedTable(PadTable):
+class LobedTable(ConservingTable, PadTable):
     """`[lobed_journal]`: a journal bearing of fixed pads: elliptical, of several lobes, of offset halves.
 
     Parameters
     ----------
-    film : PadFilm or None
+    film : PadFilm, ConservedOil or None
         The film law; if the file does not say, the map of a pad, or what a question needs.
     preset : str or None
         One of the usual sets of `lobe_set`; give this or `lobes`.
@@ -312,7 +319,7 @@ class LobedTable(PadTable):
     """
 
     data = LobedData
-    film: Annotated[pad_bearings.PadFilm | None, Variant("name", PAD_FILMS)] = None
+    film: Annotated[pad_bearings.PadFilm | ConservedOil | None, Variant("name", {**PAD_FILMS, **JFO})] = None
     preset: Annotated[str | None, one_of(pad_bearings.SETS)] = None
     lobes: tuple[pad_bearings.Lobe, ...] = ()
 
@@ -325,10 +332,10 @@ class LobedTable(PadTable):
                 raise InputError(f"{name} must stand in each of lobes, or beside a preset, got {value!r}")
         super().__post_init__()
 
-    def build(self) -> pad_bearings.LobedBearing:
+    def bearing(self) -> pad_bearings.LobedBearing:
         """Return the bearing; raise InputError where a value breaks its rule."""
         lobes = self.lobes or pad_bearings.lobe_set(self.preset or "", **self.given(OF_PRESET))
-        film = self.film or usual_film((lobe.extent for lobe in lobes), self.radius, self.length)
+        film = self.named_film or usual_film((lobe.extent for lobe in lobes), self.radius, self.length)
         return made_from(pad_bearings.LobedBearing, self, lobes=lobes, film=film, turbulence=effect_of(self))
 
 
@@ -341,7 +348,7 @@ FURTHER = ("track_depth", "track_share", "groove", "preload")
 
 @dataclass(frozen=True, kw_only=True)
 @fields_of(pad_bearings.pressure_dam_pads, optional=True)
-class DamTable(PadTable):
+class DamTable(ConservingTable, PadTable):
     """`[pressure_dam]`: a journal bearing of fixed pads with a pressure dam, a step or a relief track.
 
     Parameters
@@ -358,12 +365,15 @@ class DamTable(PadTable):
     cells : (int, int) or None
         Cells of the film around each pad and along half the length; if the file does not say, 64 x 16, or
         what a question needs.
+    film : ConservedOil or None
+        The film that conserves its oil, if the file names it.
     """
 
     data = DamData
     film_key = "cells"
     pads: tuple[pad_bearings.RecessedPad, ...] = ()
     cells: tuple[int, int] | None = None
+    film: Annotated[ConservedOil | None, Variant("name", JFO)] = None
 
     def __post_init__(self) -> None:
         given = self.given((*NEEDED, *FURTHER))
@@ -375,7 +385,12 @@ class DamTable(PadTable):
                 raise InputError(f"{name} must not be given beside pads, got {value!r}")
         super().__post_init__()
 
-    def build(self) -> pad_bearings.PressureDamBearing:
+    @property
+    def film_is_given(self) -> bool:
+        """Whether the file names cells or film, so that no other may answer."""
+        return self.cells is not None or self.conserves
+
+    def bearing(self) -> pad_bearings.PressureDamBearing:
         """Return the bearing; raise InputError where a value breaks its rule."""
         pads = self.pads or pad_bearings.pressure_dam_pads(**self.given((*NEEDED, *FURTHER)))
         cells = self.cells or pad_bearings.PressureDamBearing.cells

@@ -12,10 +12,11 @@ import re
 import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from inspect import signature
 from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -86,16 +87,59 @@ def read_ross(path: str | Path, *, speed: float | rotors.SpeedProfile = 0.0) -> 
     supports; damping of shaft elements stays with the elements and excludes the disks. As in ROSS, damping of
     the whole rotor replaces that of the elements.
     """
-    file = Path(path)
+    return _from_file(Path(path), partial(_read, speed=speed))
+
+
+@arguments
+def read_ross_bearings(
+    path: str | Path,
+) -> dict[str, LinearBearing | TabulatedBearing | FrequencyDependentReaction]:
+    """Return the bearings in a TOML or JSON file of ROSS, as `bearing.save("bearing.toml")` writes it there.
+
+    Parameters
+    ----------
+    path : str or Path
+        File of one bearing or several, or of a rotor, whose bearings alone are read.
+
+    Returns
+    -------
+    dict of str to PlanarReaction
+        As `RossRotor.bearings`.
+
+    Raises
+    ------
+    InputError
+        If the file is no such file, has no bearing, or has one as `read_ross` refuses it.
+    """
+    return _from_file(Path(path), _bearings)
+
+
+Found = TypeVar("Found")
+
+
+def _from_file(file: Path, take: Callable[[Path, dict[str, Any]], Found]) -> Found:
+    """Return what is taken from the tables of a file."""
     form, read = ("JSON", json.loads) if file.suffix.lower() == ".json" else ("TOML", tomllib.loads)
     try:
         data = read(read_text(file))
     except (tomllib.TOMLDecodeError, json.JSONDecodeError) as wrong:
         raise InputError(f"{file} must be {form}, got {wrong}") from None
+    if not isinstance(data, dict):
+        raise InputError(f"{file} must have named elements, got a {type(data).__name__}")
     try:
-        return _read(file, data, speed)
+        return take(file, data)
     except KeyError as missing:
         raise InputError(f"{file} must have the key {missing} in each of its elements") from None
+
+
+def _bearings(
+    file: Path, data: RossTable
+) -> dict[str, LinearBearing | TabulatedBearing | FrequencyDependentReaction]:
+    tables = {name: table for name, table in data.items() if isinstance(table, dict) and "kxx" in table}
+    if not tables:
+        raise InputError(f"{file} must have a bearing with the coefficient kxx, got {list(data)}")
+    found = enumerate(over_speed(data, tables).items())
+    return {_identifier(name, k): read_bearing(name, table) for k, (name, table) in found}
 
 
 def _read(file: Path, data: RossTable, speed: float | rotors.SpeedProfile) -> RossRotor:

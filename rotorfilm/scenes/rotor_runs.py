@@ -119,6 +119,11 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
     A contact ends the run and is no error. Samples are 24 in a turn at the highest speed, 200 001 at most.
     A shaft on a motor, and one on bearings with states, is integrated by scipy, all else in C.
     """
+    if scene.thrust is not None and scene.shaft is None:
+        raise InputError(
+            "thrust must stand in an entry of shaft.bearings for a run, as the mass of its collar is a disk "
+            "of the shaft, got [thrust] alone, whose film has no motion of its own"
+        )
     report(0.0, "equilibrium")
     require_kind(scene.excitation, ("unbalance", "blade_loss", "run_up", "motor", "ground"))
     start = scene.excitation.start if isinstance(scene.excitation, BladeLossTable) else 0.0

@@ -13,6 +13,7 @@ from ..core.errors import (
     InputError,
     SceneError,
     brief,
+    lacked,
     require_count,
     require_finite,
     require_non_negative,
@@ -599,7 +600,7 @@ def film_tables(tables: Mapping[str, Any]) -> dict[str, FilmTable]:
     InputError
         If there are several.
     """
-    found = {name: table for name, table in tables.items() if isinstance(table, FilmTable)}
+    found = {name: table for name, table in tables.items() if not lacked(table, FilmTable)}
     if len(found) > 1:
         raise InputError(f"{' and '.join(found)} must not stand in one scene: which does the rotor rest on?")
     return found

@@ -23,6 +23,7 @@ from ..rotors import ShaftElement, ShaftRotor
 from .families import messages, prefixed, remarks_of
 from .journal_tables import film_remarks
 from .shared_tables import GroundTable, Lubricant, UnbalanceTable, oil_remarks, require_kind
+from .thrust import pads_load
 from .turbulent import turbulent_remarks
 from .turbulent_shaft import on_stiff_bearings
 
@@ -47,6 +48,8 @@ class RotorAnswer(Drawable):
         Static load, x and y, on each bearing that reacts across the shaft, at the first speed.
     moments : dict of str to ndarray, shape (2,) [N m]
         Static moment, about x and y, on each bearing that feels tilts, at that speed.
+    axial_loads : dict of str to float [N]
+        Load that the pads of each thrust bearing carry along z there, of a pair that of both sides together.
     residual : float [1]
         Largest imbalance of forces / weight there.
     critical_speeds : tuple of CriticalSpeed
@@ -72,6 +75,7 @@ class RotorAnswer(Drawable):
     states: int
     loads: Mapping[str, Array]
     moments: Mapping[str, Array]
+    axial_loads: Mapping[str, float]
     residual: float
     critical_speeds: tuple[analysis.CriticalSpeed, ...]
     threshold: analysis.RotorThreshold
@@ -135,6 +139,11 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
         states=len(rotor.states),
         loads=_static_loads(at, ("x", "y")),
         moments=_static_loads(at, ("tilt_x", "tilt_y")),
+        axial_loads={
+            one.name: pads_load(bearings[one.name], at.coefficients[one.name].position, at.speed)
+            for one in shaft.bearings
+            if one.thrust is not None
+        },
         residual=at.residual,
         critical_speeds=critical,
         threshold=threshold,

@@ -16,6 +16,7 @@ from ..bearings.own_reaction import as_reaction
 from ..bearings.thrust import (
     SENSE,
     TURBULENT_PADS,
+    SectorPads,
     ThrustBearing,
     ThrustLosses,
     TiltingThrustBearing,
@@ -166,6 +167,30 @@ def _pushed(force: float, film: float) -> Reaction:
         nominal_force=abs(force),
         name="axial_load",
     )
+
+
+def pads_load(bearing: Any, position: Array, speed: float) -> float:
+    """Return the force along z [N] of the pads of a bearing under a shaft, without its axial load."""
+    if not isinstance(bearing, Parallel):
+        found: Array = static_force(quasi_static(bearing), position, np.zeros(3), speed)
+        return float(found[0])
+    films = [one for one in bearing.reactions if isinstance(one, Parallel | SectorPads)]
+    return sum(pads_load(one, position, speed) for one in films)
+
+
+def thrust_models(scene: Scene) -> tuple[Any, dict[str, float]]:
+    """Return the bearing of a scene as it becomes an FMU, and its start values.
+
+    Its z is counted from the equilibrium under the axial load, at which it starts.
+
+    Raises
+    ------
+    InputError, EquilibriumError
+        As `answer_thrust`.
+    """
+    rest = thrust_rest(scene.thrust.build(), scene.thrust.load, scene.speed)
+    sides = tuple(replace(one, gap=one.gap + one.side * float(rest.position[0])) for one in rest.sides)
+    return sides[0] if len(sides) == 1 else Parallel(sides), {"speed": scene.speed}
 
 
 # What a thrust bearing answers: its equilibrium, stiffness and damping, losses and temperature.

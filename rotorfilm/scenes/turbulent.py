@@ -69,13 +69,12 @@ def decided(table: Any, scene: Any) -> Any:
     """Return the table of a bearing with its turbulence where that is "auto" and the film is turbulent.
 
     Above the onset, at the temperature of the laminar balance. A film that is named and not on a grid stays
-    laminar, and so does one that conserves its oil. A turbulence that is named has the density of the scene's
-    oil.
+    laminar. A turbulence that is named has the density of the scene's oil.
     """
     choice = getattr(table, "turbulence", NONE)
     if choice == NONE or not table.has_lubricant or (choice == AUTO and not _takes(table)):
         return table
-    bearing = _without_oil(table.build())
+    bearing = without_oil(table.build())
     if isinstance(choice, Turbulence):
         return replace(table, turbulence=on_oil(choice, bearing, scene))
     return replace(table, turbulence=turbulence_of(bearing, scene)) if is_above(bearing, scene) else table
@@ -98,7 +97,7 @@ def is_left_laminar(table: Any, scene: Any) -> bool:
     choice = getattr(table, "turbulence", None)
     if choice is None or _is_tilted(table) or (choice == AUTO and _takes(table)):
         return False
-    return effect_of(table) is None and is_above(_without_oil(table.build()), scene)
+    return effect_of(table) is None and is_above(without_oil(table.build()), scene)
 
 
 def is_above(bearing: Any, scene: Any) -> bool:
@@ -110,11 +109,6 @@ def is_above(bearing: Any, scene: Any) -> bool:
     return is_turbulent_at(warm, density, speed)
 
 
-def _without_oil(bearing: Any) -> Any:
-    """Return the bearing of a film that conserves its oil, and any other bearing as it is."""
-    return bearing.bearing if isinstance(bearing, JFOFilm) else bearing
-
-
 def _is_tilted(table: Any) -> bool:
     """Return whether the journal of a table keeps a tilt: its film is laminar."""
     return getattr(table, "tilt", None) is not None
@@ -124,11 +118,16 @@ def _takes(table: Any) -> bool:
     if _is_tilted(table):
         return False
     film = getattr(table, "film", None)
-    if film is None or isinstance(film, ReynoldsFilm):
-        return not getattr(table, "conserves", False)
+    if film is None or isinstance(film, ReynoldsFilm) or getattr(table, "conserves", False):
+        return True
     from ..bearings.pads import PadGridFilm
 
     return isinstance(film, PadGridFilm)
+
+
+def without_oil(bearing: Any) -> Any:
+    """Return the bearing of a film that conserves its oil, or any other as it is."""
+    return bearing.bearing if isinstance(bearing, JFOFilm) else bearing
 
 
 def _may_be(bearing: Any, density: float, speed: float) -> bool:

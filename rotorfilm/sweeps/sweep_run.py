@@ -8,6 +8,7 @@ import json
 import multiprocessing
 import os
 import tempfile
+import time
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from importlib.metadata import version
@@ -67,7 +68,8 @@ def sweep(
     changes : mapping of str to object, optional
         Values of further keys at all points, in place of those of the scene.
     workers : int, optional
-        Number of processes on this machine; by default as many as it has cores. 1 uses this process.
+        Number of processes on this machine; by default as many as it has cores, if the points take longer
+        than starting these. 1 uses this process.
     dask : str, optional
         Address of a Dask scheduler whose workers solve the points instead.
     report : callable
@@ -180,10 +182,7 @@ def _solved(
 ) -> Iterator[tuple[int, Row]]:
     if dask is not None:
         return solved_by_dask(tables, todo, source, dask)
-    count = min(workers or os.cpu_count() or 1, len(todo))
-    return (
-        solved_here(tables, todo, source) if count <= 1 else solved_by_processes(tables, todo, source, count)
-    )
+    return solved_locally(tables, todo, source, workers)
 
 
 # The rows of a sweep as an xarray.Dataset with units, and on disk as NetCDF.
@@ -341,17 +340,48 @@ def solved_here(scene: Mapping[str, Any], todo: Points, source: str) -> Iterator
         yield number, solve_point(scene, values, source)
 
 
-def solved_by_processes(
-    scene: Mapping[str, Any], todo: Points, source: str, workers: int
+START, ANSWER = 3.0, 1.0
+"""Time in which a process starts and imports what it needs [s], about, and in which it gives an answer."""
+
+TRIED, SHARES = 2, 4
+"""Points that are solved here, to see how long one takes, and the fewest answers of each process."""
+
+
+def solved_locally(
+    scene: Mapping[str, Any], todo: Points, source: str, workers: int | None
 ) -> Iterator[tuple[int, Row]]:
-    """Yield the rows of points as processes of this machine complete them."""
+    """Yield the rows of points, solved here and, where there is time to gain, by processes of this machine.
+
+    With a number of `workers` more than one they are used whatever a point takes.
+    """
+    cores = workers or os.cpu_count() or 1
+    for done, one in enumerate(todo):
+        begin, left = time.monotonic(), todo[done + 1 :]
+        yield from solved_here(scene, [one], source)
+        each = time.monotonic() - begin
+        if done + 1 >= TRIED and min(cores, len(left)) > 1 and (workers or each * len(left) > START):
+            size = min(int(ANSWER / each), len(left) // (SHARES * cores))
+            yield from solved_by_processes(scene, left, source, min(cores, len(left)), max(1, size))
+            return
+
+
+def _solve_part(scene: Mapping[str, Any], part: Points, source: str) -> list[tuple[int, Row]]:
+    with one_blas_thread:
+        return list(solved_here(scene, part, source))
+
+
+def solved_by_processes(
+    scene: Mapping[str, Any], todo: Points, source: str, workers: int, size: int
+) -> Iterator[tuple[int, Row]]:
+    """Yield the rows of points, `size` of them at a time, as processes of this machine complete them."""
     # Forked processes would inherit threads and locks of libraries that were loaded before.
     context = multiprocessing.get_context("spawn")
+    parts = [todo[k : k + size] for k in range(0, len(todo), size)]
     with ProcessPoolExecutor(workers, mp_context=context) as pool:
-        futures = {pool.submit(solve_point, scene, values, source): number for number, values in todo}
+        futures = [pool.submit(_solve_part, scene, part, source) for part in parts]
         try:
             for future in as_completed(futures):
-                yield futures[future], future.result()
+                yield from future.result()
         finally:
             pool.shutdown(wait=True, cancel_futures=True)
 

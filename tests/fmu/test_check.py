@@ -6,6 +6,7 @@ import struct
 import subprocess
 import sys
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile
 
@@ -62,6 +63,20 @@ def test_a_motion_that_is_small_beside_nominal_values_is_repeated(tmp_path):
     found = outcomes(export_fmu(mount(rotor, {"": BEARING}), tmp_path / "rotor.fmu"))
     assert found["reference, Co-Simulation"].passed
     assert 0.0 < found["reference, Model Exchange"].figure < 1e-8
+
+
+@pytest.mark.parametrize("unbalance", [0.0, 1e-7])
+def test_an_fmu_that_hardly_moves_passes_and_a_wrong_one_is_noticed(unbalance, tmp_path):
+    """Velocities of 1e-14 and 1e-6 of their nominal value; 2 % more unbalance moves by 1e-8 of it."""
+    at = equilibrium(BEARING, (0.0, -50.0 * STANDARD_GRAVITY), 100.0)
+    rotor = RigidRotor(mass=50.0, speed=100.0, unbalance=unbalance, position=tuple(at.position))
+    good = export_fmu(mount(rotor, {"": BEARING}), tmp_path / "rotor.fmu")
+    assert failed(good) == []
+    wrong = export_fmu(mount(replace(rotor, unbalance=1.02e-7), {"": BEARING}), tmp_path / "wrong.fmu")
+    with ZipFile(good) as archive:
+        reference = archive.read("documentation/reference.csv")
+    spoiled = changed(wrong, "documentation/reference.csv", lambda content: reference)
+    assert failed(spoiled) == ["reference, Co-Simulation", "reference, Model Exchange"]
 
 
 def test_another_reference_is_noticed(path):

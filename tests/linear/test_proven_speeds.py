@@ -10,7 +10,16 @@ from numpy.testing import assert_allclose
 from scipy import sparse
 from scipy.linalg import eigh
 
-from rotorfilm import ConvergenceError, LinearBearing, TabulatedBearing, TiltingPadBearing, even_pivots
+import rotorfilm as rf
+from rotorfilm import (
+    ConvergenceError,
+    JournalBearing,
+    LinearBearing,
+    ShortFilm,
+    TabulatedBearing,
+    TiltingPadBearing,
+    even_pivots,
+)
 from rotorfilm.analysis import (
     base_system,
     critical as searching,
@@ -344,3 +353,54 @@ def test_critical_speeds_on_rigid_bearings_are_the_limit_of_stiff_ones(count):
 
 def test_equilibria_count_their_steps():
     assert 1 <= rotor_equilibrium(long_rotor(6), FILMS, 150.0).work["newton_steps"] <= 12
+
+
+def two_disks(count):
+    steel = rf.ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
+    disk = {"density": 7810.0, "width": 0.07, "inner_diameter": 0.05}
+    return rf.ShaftRotor(
+        elements=rf.ShaftElement(length=1.5, outer_diameter=0.05, material=steel).split(count),
+        disks=tuple(rf.Disk.solid(k * count // 3, outer_diameter=0.3, **disk) for k in (1, 2)),
+        stations=(rf.Station(node=0, name="left"), rf.Station(node=count, name="right")),
+        speed=100.0,
+    )
+
+
+def on_pads():
+    pads = rf.TiltingPadBearing(
+        radius=0.05,
+        length=0.05,
+        assembled_clearance=1e-4,
+        viscosity=0.05,
+        pivots=rf.even_pivots(4, between_pads=True),
+        extent=math.radians(72),
+        preload=0.3,
+    )
+    return {"left": pads, "right": pads}
+
+
+def test_critical_speeds_on_tilting_pads_are_proven_in_few_shapes():
+    rotor, bearings = two_disks(12), on_pads()
+    found = critical_speeds(rotor, bearings, np.linspace(90.0, 150.0, 4))
+    assert len(found) == 2
+    # The shapes of a rotor of 52 coordinates suffice where the error of a whirl is that of its own K(s).
+    assert found.work["eigenproblems"] < 40
+    for one in found:
+        near = rotor_modes(rotor, bearings, one.speed, 500.0).frequency
+        assert np.abs(near - one.speed).min() < 1e-8 * one.speed
+
+
+def test_motions_on_tilting_pads_are_those_of_one_system_with_the_pads():
+    modes = rotor_modes(two_disks(3), on_pads(), 200.0)
+    # Each is polished once; the few that the pads damp more than they turn are iterated.
+    assert modes.work["factorizations"] < 3 * len(modes.eigenvalues)
+
+
+def test_a_threshold_follows_its_whirl():
+    plain = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.05, film=ShortFilm())
+    bearings = {"left": plain, "right": plain}
+    found = [rotor_threshold(two_disks(n), bearings, np.linspace(50.0, 400.0, 8)) for n in (3, 6, 12)]
+    first, second = np.abs(np.diff([one.speed for one in found]))
+    assert first > 10.0 * second > 0.0  # elements of fourth order
+    assert all(one.work["eigenproblems"] < 25 for one in found)
+    assert all(one.whirl_ratio == pytest.approx(0.5, abs=0.1) for one in found)

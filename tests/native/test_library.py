@@ -24,7 +24,7 @@ LARGEST = {
     "rotorfilm_heat": 110_000,
     "rotorfilm_pads": 76_000,
     "rotorfilm_oil": 116_000,
-    "rotorfilm_loops": 385_000,
+    "rotorfilm_loops": 392_000,
     "rotorfilm_master": 362_000,
 }
 """Bytes of each library on Linux, x86_64: what it has, and some room for other compilers."""

@@ -95,7 +95,7 @@ def test_orbit_has_the_conservation_of_oil_in_its_estimate_and_says_so():
     assert "conservation of oil" in answer.rungs[0].method
     assert any("no model of this question follows the oil" in remark for remark in answer.remarks)
     assert not any("JFO" in rung.name for rung in answer.rungs)
-    with pytest.raises(InputError, match=r"journal\.film must be a quasi-static film law .* for unbalance"):
+    with pytest.raises(InputError, match=r"film must be a quasi-static film law .* for unbalance"):
         scene_of(HOLE + '\nfilm = { name = "jfo" }', quantity="unbalance_amplitude", further=rotor).ask()
 
 

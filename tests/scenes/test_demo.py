@@ -126,7 +126,7 @@ def test_one_run_is_too_long_on_purpose_and_print_outs_say_so(demo, capsys):
     assert result.refusal_run.refused
     print_demo(result)
     out = capsys.readouterr().out
-    assert "1.3 x the limit: must be refused" in out
+    assert "1.3 times this limit, which must be refused" in " ".join(out.split())
     assert out.count("too long on purpose") == 2
 
 
@@ -140,7 +140,9 @@ def test_the_bearing_runs_warm_beside_its_textbook(demo, capsys):
     assert warm.power_loss == pytest.approx(262.0, rel=0.02)
     assert warm.temperature == pytest.approx(325.65, abs=0.5)
     print_demo(result)
-    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    out = capsys.readouterr().out
+    assert "it settles 15 K above the supply" in " ".join(out.split())
+    lines = [line.split() for line in out.splitlines()]
     assert ["eccentricity", "ratio", "0.275", "0.4413"] in lines
     assert ["temperature", "37.1", "degC", "52.5", "degC"] in lines
 

@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 from rotorfilm import InputError, LinearBearing, TabulatedBearing
 from rotorfilm.analysis import coefficients, rotor_modes
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
-from rotorfilm.scenes import read_ross, to_ross, to_ross_force
+from rotorfilm.scenes import read_ross, read_ross_bearings, to_ross, to_ross_force
 
 STEEL = 'name = "Steel"\nrho = 7810.0\nE = 211e9\nG_s = 81.2e9\n'
 
@@ -279,3 +279,29 @@ def test_a_table_over_the_frequency_of_the_whirl_is_refused(tmp_path):
 def test_a_bearing_of_other_freedoms_is_refused():
     with pytest.raises(InputError, match=r"^bearing must react to x and y alone here, got one of z, tilt_x"):
         to_ross(LinearBearing(stiffness=(1e8, 1e4), freedoms=("z", "tilt_x")), 1)
+
+
+def test_bearings_alone_are_read_as_with_their_rotor(tmp_path):
+    """ROSS adds each bearing that is saved to the file."""
+    table = "kxx = [1e6, 2e6]\nkxy = [1e5, 3e5]\ncxx = [1e3, 2e3]\nfrequency = [10.0, 30.0]\n"
+    heavy = "kxx = 1e6\ncxx = 50.0\nmxx = 3.0\nmyy = 4.0\n"
+    bodies = bearing(0, 0), bearing(1, 1, table), f'["SealElement_Gap seal"]\nn = 0\n{heavy}'
+    alone = tmp_path / "bearings.toml"
+    alone.write_text("".join(bodies))
+    found = read_ross_bearings(alone)
+    assert list(found) == ["bearing_0", "bearing_1", "gap_seal"]
+    whole = read_ross(written(tmp_path, element(0, 0), *bodies[:2])).bearings
+    assert_allclose(whole["bearing_1"].damping, found["bearing_1"].damping)
+    assert_allclose(found["bearing_1"].stiffness[1], [[2e6, 3e5], [0.0, 2e6]])
+    assert_allclose(found["gap_seal"].added_mass, [[3.0, 0.0], [0.0, 4.0]])
+    lone = tmp_path / "lone.json"
+    lone.write_text('{"BearingElement_Drive end": {"n": 3, "kxx": [2e6], "cxx": [5e2], "kyy": [3e6]}}')
+    assert_allclose(read_ross_bearings(lone)["drive_end"].stiffness, [[2e6, 0.0], [0.0, 3e6]])
+    for text, match in (
+        ("[]", "must have named elements, got a list"),
+        ("{}", "must have a bearing with the coefficient kxx"),
+        ('{"BearingElement_A": {"kxx": 1.0}}', "must have the key 'cxx'"),
+    ):
+        lone.write_text(text)
+        with pytest.raises(InputError, match=match):
+            read_ross_bearings(lone)

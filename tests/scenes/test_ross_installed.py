@@ -22,7 +22,7 @@ from rotorfilm.analysis import (
 from rotorfilm.analysis.closed_loop import second_order
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
 from rotorfilm.rotors import Probe, Unbalance, mount, reduce_rotor
-from rotorfilm.scenes import read_ross, to_ross, to_ross_force
+from rotorfilm.scenes import read_ross, read_ross_bearings, to_ross, to_ross_force
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")  # of ROSS and what it imports
@@ -365,3 +365,21 @@ def test_what_ross_cannot_take_is_refused(film):
     short = TabulatedBearing(speeds=[1.0, 2.0], stiffness=np.ones((2, 2, 2)), damping=np.ones((2, 2, 2)))
     with pytest.raises(InputError, match="speeds must be at least 4 for ROSS, got 2"):
         to_ross(short, 0)
+
+
+def test_a_bearing_alone_comes_back_from_a_file_of_ross(tmp_path):
+    matrix, speeds = np.array([[3e6, 1e5], [-2e5, 4e6]]), np.linspace(50.0, 350.0, 4)
+    table = TabulatedBearing(
+        speeds=speeds,
+        stiffness=matrix * np.linspace(1.0, 2.0, 4)[:, None, None],
+        damping=1e-4 * np.stack([matrix] * 4),
+    )
+    given = {"plain": LinearBearing(stiffness=matrix, damping=1e-4 * matrix), "table": table}
+    for name, one in given.items():
+        to_ross(one, 3, tag=name).save(tmp_path / f"{name}.toml")
+        found = read_ross_bearings(tmp_path / f"{name}.toml")
+        assert list(found) == [name]
+        assert type(found[name]) is type(one)
+        for part in ("stiffness", "damping"):
+            assert_allclose(getattr(found[name], part), getattr(one, part), rtol=1e-12)
+    assert_allclose(found["table"].speeds, speeds)

@@ -4,6 +4,7 @@ import math
 import warnings
 from dataclasses import replace
 
+import fmpy
 import numpy as np
 import pytest
 
@@ -13,7 +14,10 @@ from rotorfilm.questions.thrust import GRIDS, QUANTITIES, ThrustQuestion
 from rotorfilm.questions.walk import all_models
 from rotorfilm.reports.answer_rows import rotor_rows
 from rotorfilm.scenes import parse_scene
+from rotorfilm.scenes.export_scene import export_scene
+from rotorfilm.scenes.rotor_runs import run_rotor
 from rotorfilm.scenes.solve_shaft import amplitude_unit
+from rotorfilm.scenes.thrust import thrust_models
 
 SIZE = 'inner_diameter = "60 mm"\nouter_diameter = "120 mm"\npads = 8\npad_arc = "38 deg"\n'
 HEAD = f"schema = 1\n[thrust]\n{SIZE}"
@@ -237,6 +241,7 @@ def test_the_answer_of_a_shaft_tells_loads_across_it_and_moments_apart():
     rows = dict(rotor_rows(found))
     assert float(rows["moment on thrust"].removesuffix(" N m")) > 10.0
     assert "load on thrust" not in rows
+    assert rows["axial load on thrust"] == "10000 N"
 
 
 def test_shafts_say_what_they_do_not_take_with_a_thrust_bearing():
@@ -248,3 +253,30 @@ def test_shafts_say_what_they_do_not_take_with_a_thrust_bearing():
     asked = LOADED + RUN + '[question]\nquantity = "unbalance_amplitude"\ntolerance = 0.1\n'
     with pytest.raises(rf.InputError, match=r"shaft\.bearings must have no thrust bearing for unbalance_"):
         parse_scene(asked, "case.toml").ask()
+
+
+STILL = (0.0, 0.0, 0.0)
+PUSHED = f'schema = 1\n[thrust]\n{SIZE}\nviscosity = "20 mPa s"\naxial_load = "5 kN"\ncells = [16, 8]\n'
+TURNED = "[operation]\nspeed = 500\n"
+
+
+@pytest.mark.parametrize(
+    "keys", ["pivot_arc = 0.6", 'taper_depth = "40 um"', 'pivot_arc = 0.6\nplay = "100 um"']
+)
+def test_a_thrust_bearing_is_an_fmu_at_rest_under_its_load(tmp_path, keys):
+    scene = parse_scene(f"{PUSHED}{keys}\n{TURNED}", "case.toml")
+    bearing, start = thrust_models(scene)
+    state = bearing.initial_state if bearing.states else []
+    assert bearing.output(0.0, state, [*STILL, *STILL, 500.0])[0] == pytest.approx(5e3, rel=1e-6)
+    if "play" not in keys:
+        files = export_scene(scene, tmp_path)
+        assert files == {"thrust": tmp_path / "thrust.fmu"}
+        starts = {v.name: v.start for v in fmpy.read_model_description(files["thrust"]).modelVariables}
+        assert next(float(value) for name, value in starts.items() if name.endswith("speed")) == 500.0
+    assert start == {"speed": 500.0}
+
+
+def test_a_run_of_a_thrust_bearing_alone_says_where_its_mass_is():
+    scene = parse_scene(PUSHED + TURNED, "case.toml")
+    with pytest.raises(rf.InputError, match=r"thrust must stand in an entry of shaft\.bearings for a run"):
+        run_rotor(scene)

@@ -1,5 +1,6 @@
 """Shafts of scenes in journals that feel their tilt, and what is said where they do not."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -106,3 +107,22 @@ def test_springs_have_no_tilt(tmp_path):
     )
     with pytest.raises(SceneError, match="tilt must be left out without a journal"):
         scene(tmp_path, text=text)
+
+
+def test_moments_of_aligned_journals_move_the_modes(tmp_path):
+    """At L/D 1 from 107.8 and 114.4 to 121.1 and 132.7 rad/s by another code."""
+    text = TEXT.replace('length = "30 mm"', 'length = "100 mm"').replace('"0.1 Pa s"', '"0.03 Pa s"')
+    shaft = scene(tmp_path, both='tilt = "none"\n', text=text).shaft
+    rotor, aligned = shaft.build(), shaft.build_bearings()
+    at = rf.rotor_equilibrium(rotor, aligned, 400.0)
+    film = rf.bearings.ExtrapolatedFilm(film=rf.ReynoldsFilm(cells=(64, 8)))
+    moved = {}
+    for name, held in aligned.items():
+        full = MomentCarryingJournal(bearing=replace(held.bearing, film=film))
+        slopes = full.jacobian([*at.coefficients[name].position[:2], 0.0, 0.0], np.zeros(4), 400.0)
+        moved[name] = rf.LinearBearing(
+            stiffness=-slopes[:, :4], damping=-slopes[:, 4:8], freedoms=full.freedoms
+        )
+    for bearings, expected in ((aligned, (107.8, 114.4)), (moved, (121.1, 132.7))):
+        found = np.sort(rf.rotor_modes(rotor, bearings, 400.0).frequency)
+        np.testing.assert_allclose(found[found > 80.0][:2], expected, rtol=6e-3)

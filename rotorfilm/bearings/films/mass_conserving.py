@@ -118,7 +118,7 @@ def require_conserved_cells(cells: object) -> None:
         raise InputError(f"cells must be two even numbers, at least (16, 4), got {cells!r}")
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=8)
 def conserved_cells(
     geometry: FilmGeometry, around: int, along: int, *, whole: bool = False
 ) -> ConservedCells:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from ctypes import byref, c_int64
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -84,6 +85,8 @@ class FilmInMotion:
         s : complex [1/s]
         """
         rate, by_s = self._wave(s)
+        if self._cavity is not None:
+            return self._waved(self._cavity, s, rate, by_s)
         moved, held = self._slopes
         found = self._found(rate, moved + s * held, by_s, held)
         return found[:, : len(moved)], found[:, len(moved) :]
@@ -99,8 +102,11 @@ class FilmInMotion:
             By default they keep their phase: the storage of the cavity has (exp(2 s dxi/speed) - 1)
             speed/(2 dxi) in place of s, where the cells resolve the wave.
         """
+        rate, by_s = (complex(s), 1.0) if as_stepped else self._wave(s)
+        if self._cavity is not None:
+            return self._waved(self._cavity, s, rate, by_s)[0]
         moved, held = self._slopes
-        return self._found(complex(s) if as_stepped else self._wave(s)[0], moved + s * held)
+        return self._found(rate, moved + s * held)
 
     def slow(self) -> tuple[Array, Array, Array]:
         """Return K(0), dK/ds(0) and d force / d speed, shape (freedoms,) and without unit.
@@ -130,6 +136,35 @@ class FilmInMotion:
         keeps = np.where(solution.full, 0.0, KEEPS * self.film.cells.area)
         right = np.where(solution.full, right, 0.0)
         return -self._force(oil_response(self.state.equations, solution.full, keeps, right))
+
+    @cached_property
+    def _cavity(self) -> Cavity | None:
+        """What a film and its cavity do to each other at every s; None where openings get a given flow."""
+        if self.film.supply.fed.any():
+            return None
+        return cavity_of(self.state, self.state.gap.line * self.film.cells.area, self._slopes, self._force)
+
+    def _waved(self, cavity: Cavity, s: complex, rate: Any, by_s: Any) -> tuple[Complex, Complex]:
+        """Return K(s) and dK/ds where the cavity stores at a rate, from what its waves do where it ends."""
+        n, m = len(self._slopes[0]), len(cavity.inlet)
+        lines = np.ones((len(self._turns), 1))
+        first, second = waves(cavity, *(one * lines for one in (rate, by_s)))
+        answer, felt = np.linalg.inv(np.eye(m) - first[:, :m]), cavity.felt
+        moved = answer @ (first[:, m : m + n] + s * first[:, m + n :])
+        late = first[:, m + n :] - second[:, m : m + n] - s * second[:, m + n :] - second[:, :m] @ moved
+        K = felt[:, m : m + n] + s * felt[:, m + n :] + felt[:, :m] @ moved
+        return self.scale * K, self.scale * (felt[:, m + n :] + felt[:, :m] @ (answer @ late))
+
+    @cached_property
+    def _turns(self) -> Array:
+        """Twice the angles over which the lines extend, shape (N, 1) [rad]."""
+        return 2.0 * self.film.cells.extent[:, None]
+
+    @cached_property
+    def _carrying(self) -> Any:
+        """Twice the speed with which the walls carry the oil, shape (N, M), or one where it is the same."""
+        rows = 2.0 * np.abs(self.state.equations.wedge) / (self.state.gap.face * self.film.cells.width)
+        return rows if np.ptp(rows) > 1e-12 * rows.max() else float(rows.max())
 
     @cached_property
     def _slopes(self) -> tuple[Array, Array]:
@@ -172,8 +207,7 @@ class FilmInMotion:
 
     def _wave(self, s: complex) -> tuple[Complex, Complex]:
         """Return what stands for s in the storage of the cavity, shape (N, M), and its derivative by s."""
-        speed = 2.0 * np.abs(self.state.equations.wedge) / (self.state.gap.face * self.film.cells.width)
-        turn = 2.0 * complex(s) * self.film.cells.extent[:, None]
+        speed, turn = self._carrying, complex(s) * self._turns
         resolved = np.abs(turn) <= speed
         phase = np.where(resolved, turn, 0.0) / np.where(speed > 0.0, speed, 1.0)
         known = np.where(phase == 0.0, 1.0, phase)
@@ -202,6 +236,117 @@ class FilmInMotion:
             change = np.tensordot(by_place, part, 2) / np.sum(line * part)
             widening = np.where(cells.opening == opening, change[:, None, None], widening)
         return widening
+
+
+class Cavity(NamedTuple):
+    """A film and its cavity in small motion: only the waves in the cavity depend on the exponent.
+
+    Columns are the changes of theta where the cavity ends ("inlets" of the film), then the places of the
+    journal and then their rates, one for each freedom.
+
+    Attributes
+    ----------
+    cells : ndarray of int, shape (m,)
+        The cells of the cavity, in the order of the flow.
+    lines : ndarray of int, shape (m,)
+        Their lines.
+    room : ndarray of complex, shape (m,)
+        The size of their gap times their own.
+    up, inlet : ndarray of int32
+        Which of them is upstream of each, -1 for none, and which are upstream of the inlets.
+    own, flow : ndarray, shape (m,)
+        What a change of theta carries out of a cell, and into it from the one upstream.
+    source : ndarray, shape (m, columns)
+        What leaves each of them less by the pressure that answers, and by the gap.
+    felt : ndarray, shape (freedoms, columns)
+        The force of that pressure.
+    """
+
+    cells: np.ndarray
+    lines: np.ndarray
+    room: Complex
+    up: np.ndarray
+    inlet: np.ndarray
+    own: Array
+    flow: Array
+    source: Array
+    felt: Array
+
+
+def cavity_of(
+    state: ConservedState, room: Array, slopes: tuple[Array, Array], force: Callable[[Array], Array]
+) -> Cavity | None:
+    """Return what a film and its cavity do to each other; None where a cavity goes all around.
+
+    Parameters
+    ----------
+    state : ConservedState
+        Steady film without openings that get a given flow.
+    room : ndarray, shape (N, M)
+        Gap times size of the cells.
+    slopes : tuple of ndarray, shape (freedoms, N, M)
+        d outflow of the cells / d place, and / d rate.
+    force : callable
+        Forces from changes of pressure (columns, N, M).
+    """
+    e, (lines, along) = state.equations, state.solution.full.shape
+    film = e.opening == FILM
+    empty, full = film & (state.solution.full == 0), film & (state.solution.full != 0)
+    if not np.all(np.any(~empty, axis=0)):
+        return None
+    number = np.arange(lines * along).reshape(lines, along)
+    step = -1 if e.backward else 1
+    upstream, carried = np.roll(number, step, axis=0), np.abs(e.wedge)
+    out, into = (
+        (np.roll(carried, 1, axis=0), carried) if e.backward else (carried, np.roll(carried, 1, axis=0))
+    )
+    # A line of cells is followed from a cell that is not of the cavity.
+    begin = np.argmax(~empty, axis=0)
+    position = (step * (np.arange(lines)[:, None] - begin)) % lines
+    cells = number[empty][np.argsort(position[empty], kind="stable")]
+    rank = np.full(lines * along, -1)
+    rank[cells] = np.arange(len(cells))
+    inlets = number[full & empty.ravel()[upstream]]
+    columns = len(inlets) + 2 * len(slopes[0])
+    right = np.zeros((columns, lines * along))
+    right[np.arange(len(inlets)), inlets] = into.ravel()[inlets]
+    right[len(inlets) :] = -np.concatenate(slopes).reshape(-1, lines * along)
+    in_film = np.where(full.ravel(), right, 0.0).reshape(columns, lines, along)
+    change: Array = oil_response(e, state.solution.full, np.where(empty, KEEPS, 0.0), in_film).real
+    change = np.where(full, change, 0.0)
+    aside = np.zeros((columns, lines, 1))
+    beside = np.concatenate([aside, change, aside], axis=2)
+    arriving = np.roll(e.around, 1, axis=0) * np.roll(change, 1, axis=1) + e.around * np.roll(
+        change, -1, axis=1
+    )
+    arriving += e.along[:, :-1] * beside[:, :, :-2] + e.along[:, 1:] * beside[:, :, 2:]
+    source = arriving.reshape(columns, -1)[:, cells].T + np.where(empty.ravel(), right, 0.0)[:, cells].T
+    return Cavity(
+        cells,
+        cells // along,
+        room.ravel()[cells].astype(complex),
+        rank[upstream.ravel()[cells]].astype(np.int32),
+        rank[upstream.ravel()[inlets]].astype(np.int32),
+        (out + e.store).ravel()[cells],
+        into.ravel()[cells],
+        np.ascontiguousarray(source),
+        force(change),
+    )
+
+
+def waves(cavity: Cavity, rate: Complex, by: Complex) -> tuple[Complex, Complex]:
+    """Return what the columns of a cavity change where it ends, and what `by` times the changes do there.
+
+    The cells store at a rate; rate and `by` are of each line, shape (N, 1), or of each cell.
+    """
+    found = np.empty((2, len(cavity.inlet), cavity.source.shape[1]), dtype=complex)
+    storage, also = (
+        cavity.room * np.ravel(one)[cavity.lines if one.shape[1] == 1 else cavity.cells] for one in (rate, by)
+    )
+    places = map(address, (cavity.up, cavity.own, cavity.flow, cavity.source, storage, also))
+    ends = len(cavity.inlet), address(cavity.inlet), address(found)
+    report_search(loops()["rf_oil_waves"](len(cavity.cells), cavity.source.shape[1], *places, *ends))
+    return found[0], found[1]
 
 
 # What a film that conserves its oil has in SI units, whatever carries it.
@@ -346,6 +491,13 @@ class ConservedFilmState(NamedTuple):
     def rows(self) -> dict[str, Array]:
         """Of each cell theta H, the same one step earlier, P [1/s], theta, 1 where it is full, (N, M)."""
         return dict(zip(ROWS, self.numbers[HEAD:].reshape(len(ROWS), *self.cells), strict=True))
+
+
+class StepsInC(NamedTuple):
+    """A film that the compiled loop steps: its structure, and the stiffness of springs beside it [N/m]."""
+
+    struct: Any
+    springs: float
 
 
 @once_for_each
@@ -540,6 +692,13 @@ class MassConserving(ConservedAtRest):
         stiffness = np.empty((2, 2))
         end, solutions = self.inner_step(state, u, dt, near, stiffness)
         return StepTrial(end, self.answer(end), stiffness + self.scaled.springs * np.eye(2), solutions + 1)
+
+    @property
+    def compiled_steps(self) -> StepsInC | None:
+        """The film as `native/conserved/oil_rotor.h` steps it; None where a subclass changes `attempt`."""
+        if type(self).attempt is not MassConserving.attempt:
+            return None
+        return StepsInC(_film_in_c(self.scaled), self.scaled.springs)
 
     def inner_step(
         self,

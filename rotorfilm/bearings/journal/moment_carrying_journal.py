@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from ctypes import addressof, byref, c_size_t
 from dataclasses import dataclass, replace
 from enum import Enum
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -185,6 +185,9 @@ GRID_ERRORS, GRID_CELLS = (5e-3, 1.2e-2), 768
 
 EXTRAPOLATED_ERROR = 1e-3
 """Of both where two grids are extrapolated."""
+
+BEYOND = "that of a tilt beyond its level, which may be wrong by its own size"
+"""How force and moment go on where a level ends."""
 
 SAME = 1e-8
 """Relative difference of length/diameter below which a map of tilts is that of a bearing."""
@@ -427,6 +430,15 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
         struct.owner = call
         return struct
 
+    def tilted_call(self) -> FilmCall | None:
+        """Return force and moment as a compiled function of nine numbers.
+
+        None of the full film and of a misaligned bush, which are asked in Python.
+        """
+        if self.level is TiltLevel.FULL or np.any(self.bush):
+            return None
+        return FilmCall(address_of("rf_tilted_at"), addressof(self._tilted), self, BEYOND)
+
     @property
     def closed_share(self) -> float:
         """Factor g of the moment in closed form; 0 of a level without."""
@@ -576,8 +588,7 @@ class WholeFilm(NamedTuple):
     @property
     def turn(self) -> Array:
         """What makes pairs of the bearing frame of those of the film's, shape (4, 4)."""
-        c, s = math.cos(self.middle), math.sin(self.middle)
-        return np.asarray(np.kron(np.eye(2), [[c, -s], [s, c]]), dtype=float)
+        return _turned(self.middle)
 
     def least(self, place: Array) -> float:
         """Return the least film over the clearance at one place (e, tau) in the bearing frame."""
@@ -597,6 +608,12 @@ class WholeFilm(NamedTuple):
             0.5 * (by_source @ _QUARTER_TURN @ q + by_rate)[:, None],
         ]
         return np.asarray(self.turn @ np.concatenate(columns, axis=1))
+
+
+@lru_cache(maxsize=64)
+def _turned(angle: float) -> Array:
+    c, s = math.cos(angle), math.sin(angle)
+    return np.asarray(np.kron(np.eye(2), [[c, -s], [s, c]]), dtype=float)
 
 
 def kind_of(bearing: Any) -> str:

@@ -191,18 +191,14 @@ class PressureDamBearing(PadBearing, KernelReaction):
     Notes
     -----
     Let d be the position from the pad's center of curvature, c_p the pad clearance, e = d/c_p, and D the
-    depth of the recess divided by c_p. With H = 1 - e.n + D, n = (cos theta, sin theta), w = velocity/c_p -
-    (speed/2) z^ x e and z from the middle, 0, to the end, 1, of the bearing,
-
-        (H^3 P_theta)_theta + (L/D)^-2 H^3 P_zz = -w.n + (speed/2) D_theta,  p = 12 viscosity (R/c_p)^2 P,
-
-    P >= 0 (Nicholas & Allaire 1980). Edges of recesses are on nodes, and the source at a step is the
-    difference of the Couette flow on both sides. Derivatives are those of the discrete film with the edge of
-    the ruptured zone held, since pressure and slope vanish there; the damping matrix is symmetric. Losses and
-    inertia at the step, inlet pressure, and hot oil carry-over from pad to pad are neglected. A mobility is a
-    factor of H^3 that depends on the local depth: a recess becomes turbulent first. The force is homogeneous
-    of degree one in velocity and speed together. It does not depend on the source alone, so there is no map
-    of it.
+    depth of the recess divided by c_p. The equation is that of `ReynoldsFilm` with H = 1 - e.n + D, and with
+    (speed/2) D_theta beside the source -w.n, for P >= 0 (Nicholas & Allaire 1980). Edges of recesses are on
+    nodes, and the source at a step is the difference of the Couette flow on both sides. Derivatives are those
+    of the discrete film with the edge of the ruptured zone held, since pressure and slope vanish there; the
+    damping matrix is symmetric. Losses and inertia at the step, inlet pressure, and hot oil carry-over from
+    pad to pad are neglected. A mobility is a factor of H^3 that depends on the local depth: a recess becomes
+    turbulent first. The force is homogeneous of degree one in velocity and speed together. It does not depend
+    on the source alone, so there is no map of it.
 
     Examples
     --------

@@ -28,8 +28,11 @@ from .sector_pads import SectorPads
 _MIDDLE = 1e-3
 """Distance of a pivot from the middle of the arc, over the arc, below which a flat pad carries nothing."""
 
-_STARTS = (1.0, 0.5, 2.0, 0.2)
-"""Tilts, over film and radius, from which a rest of a pad is sought."""
+_STARTS = (
+    *((along, 0.0) for along in (1.0, 0.5, 2.0, 0.2, 5.0)),
+    *((along, out) for along in (1.0, 3.0) for out in (1.0, -1.0, 2.5)),
+)
+"""Closing along the rotation and opening outward, over film/radius, from which a rest of a pad is sought."""
 
 
 @quantities
@@ -157,12 +160,14 @@ class TiltingThrustBearing(SectorPads):
         Raises
         ------
         EquilibriumError
-            If Newton's method finds none, as for a rotation that the pads do not carry.
+            If Newton's method finds none, as for a rotation that the pads do not carry, and for flat pads
+            whose center of pressure cannot lie at the pivot.
         """
         turned = self._unit_turned(u)
-        for start in _STARTS:
-            guess = np.zeros((self.pads, self.tilts))
-            guess[:, 0] = -start * math.copysign(1.0, u[6]) * self._film(turned) / self.outer_radius
+        size = self._film(turned) / self.outer_radius
+        for along, out in _STARTS:
+            guess = np.full((self.pads, 2), size) * (-along * math.copysign(1.0, u[6]), out)
+            guess = guess[:, : self.tilts]
             found, status = self._unit.rest(turned, guess.ravel())
             if not status:
                 return found
@@ -170,7 +175,18 @@ class TiltingThrustBearing(SectorPads):
             raise EquilibriumError(
                 f"{self._sense}, got {float(u[6])!r} rad/s: the other way they do not rest"
             )
+        if not self.crown:
+            raise EquilibriumError(self._unbalanced(u[:3]))
         raise no_rest(self, u[:3], float(u[6]))
+
+    def _unbalanced(self, place: Array) -> str:
+        """Return that flat pads have no hydrodynamic rest."""
+        return (
+            "pivot_arc and pivot_width must be where the center of pressure of a flat pad can lie, got "
+            f"{self.pivot_arc!r} and {self.pivot_width!r} with the collar at {place.tolist()}: no tilt has "
+            "its pressure there. Oil moves faster outside, so a pivot near the middle of the arc must lie "
+            "beyond the middle of the width. Flat pads rest on a pivot_arc of 0.6 and a pivot_width of 0.5"
+        )
 
     def warn_of_flow(
         self, speed: float, temperature: float | None = None, hottest: float | None = None

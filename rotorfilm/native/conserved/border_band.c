@@ -13,6 +13,13 @@
 #define INLINE static inline
 #endif
 
+/* In a loop: no numbers side by side, since those just written would not be ready as one. */
+#if defined(__GNUC__)
+#define ONE_BY_ONE __asm__ volatile("")
+#else
+#define ONE_BY_ONE
+#endif
+
 /* Pieces of a row, or of a vector, in both parts; no imaginary one where all is real. */
 typedef struct rf_piece {
     double *real, *imaginary;
@@ -129,12 +136,32 @@ INLINE void take_product(size_t n, rf_piece row, rf_piece x, rf_piece y)
     y.imaginary[0] -= rf_product(n, row.real, x.imaginary) + rf_product(n, row.imaginary, x.real);
 }
 
-/* Column by column, so that what is found at last is needed at once by a number of its own only. */
+/* y -= row.x number by number, the nearest to y last: only that one waits for what has just been found. */
+INLINE void take_in_order(size_t n, int ascending, rf_piece row, rf_piece x, rf_piece y)
+{
+    double real = y.real[0], imaginary = y.imaginary ? y.imaginary[0] : 0.0;
+    for (size_t d = 0; d < n; ++d) {
+        const size_t k = ascending ? d : n - 1 - d;
+        ONE_BY_ONE;
+        real -= row.real[k] * x.real[k];
+        if (y.imaginary) {
+            real += row.imaginary[k] * x.imaginary[k];
+            imaginary -= row.real[k] * x.imaginary[k] + row.imaginary[k] * x.real[k];
+        }
+    }
+    y.real[0] = real;
+    if (y.imaginary)
+        y.imaginary[0] = imaginary;
+}
+
 INLINE void forward(const rf_border_band *band, double *real, double *imaginary)
 {
-    for (size_t p = 0; p < band->size; ++p)
-        for (size_t d = 1; d <= below(band, p); ++d)
-            take(1, in_row(band, p + d, band->half - d), piece(real, imaginary, p), piece(real, imaginary, p + d));
+    const size_t half = band->half;
+    for (size_t p = 1; p < band->size; ++p) {
+        const size_t reach = p < half ? p : half;
+        take_in_order(reach, 1, in_row(band, p, half - reach), piece(real, imaginary, p - reach),
+                      piece(real, imaginary, p));
+    }
     for (size_t b = 0; b < band->border; ++b)
         take_product(band->size + b, in_last(band, b, 0), piece(real, imaginary, 0),
                      piece(real, imaginary, band->size + b));
@@ -151,9 +178,8 @@ INLINE void backward(const rf_border_band *band, double *real, double *imaginary
     for (size_t p = size; p-- > 0;) {
         const rf_piece x = piece(real, imaginary, p);
         take_product(border, in_row(band, p, reach), piece(real, imaginary, size), x);
-        if (scale(x, in_row(band, p, half)))
-            for (size_t d = 1; d <= half && d <= p; ++d)
-                take(1, in_row(band, p - d, half + d), x, piece(real, imaginary, p - d));
+        take_in_order(below(band, p), 0, in_row(band, p, half + 1), piece(real, imaginary, p + 1), x);
+        scale(x, in_row(band, p, half));
     }
 }
 

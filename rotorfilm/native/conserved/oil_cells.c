@@ -51,6 +51,19 @@ static size_t line_to_cut(const rf_oil_cells *cells)
     return best;
 }
 
+static void set_entries(const rf_oil_cells *cells, rf_oil_places *places, const rf_border_band *band, size_t q)
+{
+    const size_t nodes = cells->nodes, all = cells->lines * nodes, j = q % nodes;
+    const size_t beyond = q + nodes < all ? q + nodes : q + nodes - all, before = q >= nodes ? q - nodes : q + all - nodes;
+    const size_t rows[RF_OIL_ENTRIES] = {q, beyond, before, j > 0 ? q - 1 : all, j + 1 < nodes ? q + 1 : all};
+    for (size_t k = 0; k < RF_OIL_ENTRIES; ++k) {
+        const int stands = rows[k] < all && places->place[q] >= 0 && places->place[rows[k]] >= 0;
+        const size_t row = stands ? (size_t)places->place[rows[k]] : 0;
+        places->entry[RF_OIL_ENTRIES * q + k] =
+            stands ? (int32_t)rf_band_place(band, row, (size_t)places->place[q]) : -1;
+    }
+}
+
 void rf_place_oil(const rf_oil_cells *cells, rf_oil_places *places, rf_border_band *band)
 {
     const size_t nodes = cells->nodes, all = cells->lines * nodes;
@@ -73,68 +86,60 @@ void rf_place_oil(const rf_oil_cells *cells, rf_oil_places *places, rf_border_ba
         if (cells->fed[k])
             beside = border + cells->openings;
     band->border = beside;
+    for (size_t q = 0; q < all; ++q)
+        set_entries(cells, places, band, q);
 }
 
-/* Where a matrix goes. */
-typedef struct target {
-    const rf_oil_cells *cells;
-    const int32_t *place;
-    rf_border_band *band;
-} target;
-
 /* The column of a cell: what leaves it for each of its neighbors, in proportion to its unknown, and what it stores. */
-static void add_cell(const target *to, size_t q, double by_pressure, double by_theta)
+static void add_cell(const rf_oil_cells *cells, const int32_t *entry, size_t q, double by_pressure, double by_theta,
+                     double *rows)
 {
-    const rf_oil_cells *cells = to->cells;
-    const size_t nodes = cells->nodes, all = cells->lines * nodes, i = q / nodes, j = q % nodes;
-    const size_t beyond = q + nodes < all ? q + nodes : q + nodes - all, before = q >= nodes ? q - nodes : q + all - nodes;
-    const double *along = cells->along + i * (nodes + 1) + j;
+    const size_t nodes = cells->nodes, all = cells->lines * nodes;
+    const size_t before = q >= nodes ? q - nodes : q + all - nodes;
+    const double *along = cells->along + q + q / nodes;
     const double carried = by_theta * fabs(cells->wedge[cells->backward ? before : q]);
     double onward = by_pressure * cells->around[q], back = by_pressure * cells->around[before];
     *(cells->backward ? &back : &onward) += carried;
-    const size_t rows[5] = {q, beyond, before, j > 0 ? q - 1 : q, j + 1 < nodes ? q + 1 : q};
-    const double values[5] = {
+    const double values[RF_OIL_ENTRIES] = {
         onward + back + by_pressure * (along[0] + along[1]) + by_theta * cells->store[q],
         -onward,
         -back,
-        j > 0 ? -by_pressure * along[0] : 0.0,
-        j + 1 < nodes ? -by_pressure * along[1] : 0.0,
+        -by_pressure * along[0],
+        -by_pressure * along[1],
     };
-    for (size_t k = 0; k < 5; ++k)
-        if (to->place[rows[k]] >= 0 && values[k] != 0.0)
-            to->band->rows[rf_band_place(to->band, (size_t)to->place[rows[k]], (size_t)to->place[q])] += values[k];
+    for (size_t k = 0; k < RF_OIL_ENTRIES; ++k)
+        if (entry[k] >= 0)
+            rows[entry[k]] += values[k];
 }
 
 /* Rows that stand for no cell: those of held cells in the band, and of openings that are held. */
-static void fill_empty_rows(const target *to, size_t cut)
+static void fill_empty_rows(const rf_oil_cells *cells, size_t cut, rf_border_band *band)
 {
-    const rf_oil_cells *cells = to->cells;
     const size_t nodes = cells->nodes, all = cells->lines * nodes, first = (cut + 1) * nodes;
-    for (size_t p = 0; p < to->band->size; ++p)
-        if (cells->opening[(p + first) % all] != RF_FILM_CELL)
-            to->band->rows[rf_band_place(to->band, p, p)] = 1.0;
-    for (size_t b = film_cells_of(cells, cut); b < to->band->border; ++b)
+    for (size_t p = 0, q = first < all ? first : 0; p < band->size; ++p, q = q + 1 < all ? q + 1 : 0)
+        if (cells->opening[q] != RF_FILM_CELL)
+            band->rows[rf_band_place(band, p, p)] = 1.0;
+    for (size_t b = film_cells_of(cells, cut); b < band->border; ++b)
         if (!cells->fed[b - film_cells_of(cells, cut)])
-            to->band->rows[rf_band_place(to->band, to->band->size + b, to->band->size + b)] = 1.0;
+            band->rows[rf_band_place(band, band->size + b, band->size + b)] = 1.0;
 }
 
 void rf_set_oil_matrix(const rf_oil_cells *cells, const rf_oil_places *places, const double *by_pressure,
                        const double *by_theta, const double *real, const double *imaginary, rf_border_band *band)
 {
-    const target to = {cells, places->place, band};
     const size_t numbers = rf_band_numbers(band);
     memset(band->rows, 0, numbers * sizeof(double));
     if (band->imaginary_rows)
         memset(band->imaginary_rows, 0, numbers * sizeof(double));
     for (size_t q = 0; q < cells->lines * cells->nodes; ++q) {
+        const int32_t *entry = places->entry + RF_OIL_ENTRIES * q;
         if (places->place[q] < 0)
             continue;
-        add_cell(&to, q, by_pressure[q], by_theta[q]);
-        const size_t at = rf_band_place(band, (size_t)places->place[q], (size_t)places->place[q]);
+        add_cell(cells, entry, q, by_pressure[q], by_theta[q], band->rows);
         if (real)
-            band->rows[at] += by_theta[q] * real[q];
+            band->rows[entry[0]] += by_theta[q] * real[q];
         if (imaginary)
-            band->imaginary_rows[at] += by_theta[q] * imaginary[q];
+            band->imaginary_rows[entry[0]] += by_theta[q] * imaginary[q];
     }
-    fill_empty_rows(&to, places->cut);
+    fill_empty_rows(cells, places->cut, band);
 }

@@ -39,13 +39,17 @@ typedef struct rf_oil_cells {
 typedef struct rf_oil_places {
     size_t cut;
     int32_t *place; /* N x M; -1 nowhere */
+    int32_t *entry; /* N x M x RF_OIL_ENTRIES: where in the matrix what a cell does to itself and its neighbors goes; -1 nowhere */
 } rf_oil_places;
+
+/* A cell itself, the next one around and the one before, the one before along the line and the next. */
+enum { RF_OIL_ENTRIES = 5 };
 
 /* Flow out of every cell, N x M. */
 RF_EXPORT_LOOP void rf_oil_outflow(const rf_oil_cells *cells, const double *pressure, const double *theta,
                                    double *outflow);
 
-/* Set the places, and the sizes of the matrix. */
+/* Set the places and the entries, and the sizes of the matrix. */
 void rf_place_oil(const rf_oil_cells *cells, rf_oil_places *places, rf_border_band *band);
 
 /* d outflow / d x with dP = by_pressure dx and dtheta = by_theta dx; further storage of theta in both parts, or NULL

@@ -11,16 +11,6 @@
 #define NOISE 1e-13  /* of the largest pressure, or of theta: no reason to move a cell */
 #define SOLVED 1e-10 /* of Fischer's and Burmeister's function, from where the sets are right */
 
-typedef struct rf_oil_solver {
-    const rf_oil_cells *cells;
-    rf_oil_places places;
-    rf_border_band band;
-    double *by_pressure, *by_theta, *flow; /* N x M */
-    double *right, *imaginary;             /* of the matrix */
-    rf_oil_work work;
-    void *memory;
-} rf_oil_solver;
-
 static size_t most_rounds(const rf_oil_cells *cells)
 {
     return cells->lines + cells->nodes + MORE;
@@ -31,14 +21,15 @@ static size_t cells_of(const rf_oil_solver *solver)
     return solver->cells->lines * solver->cells->nodes;
 }
 
-static int open_solver(rf_oil_solver *solver, const rf_oil_cells *cells, int is_complex)
+int rf_open_oil_solver(rf_oil_solver *solver, const rf_oil_cells *cells, int is_complex)
 {
     const size_t all = cells->lines * cells->nodes, parts = is_complex ? 2 : 1;
     memset(solver, 0, sizeof *solver);
     solver->cells = cells;
-    solver->places.place = malloc(all * sizeof(int32_t));
+    solver->places.place = malloc((1 + RF_OIL_ENTRIES) * all * sizeof(int32_t));
     if (!solver->places.place)
         return RF_MEMORY;
+    solver->places.entry = solver->places.place + all;
     rf_place_oil(cells, &solver->places, &solver->band);
     const size_t numbers = rf_band_numbers(&solver->band), unknowns = solver->band.size + solver->band.border;
     double *next = malloc((parts * (numbers + unknowns) + 3 * all) * sizeof(double));
@@ -59,7 +50,7 @@ static int open_solver(rf_oil_solver *solver, const rf_oil_cells *cells, int is_
     return RF_OK;
 }
 
-static void close_solver(rf_oil_solver *solver)
+void rf_close_oil_solver(rf_oil_solver *solver)
 {
     free(solver->places.place);
     free(solver->memory);
@@ -230,23 +221,32 @@ static int guess_from_coarser(const rf_oil_cells *cells, uint8_t *full, const do
     return status == RF_OK ? RF_OK : RF_UNDEFINED;
 }
 
+int rf_search_oil(rf_oil_solver *solver, const rf_oil_cells *cells, int method, int guessed, uint8_t *full,
+                  double *pressure, double *theta)
+{
+    const rf_oil_work none = {0, 0};
+    solver->cells = cells;
+    solver->work = none;
+    if (!guessed && (method == RF_BY_NEWTON || guess_from_coarser(cells, full, pressure, theta) != RF_OK))
+        guess_sets(solver, full, pressure, theta);
+    int status = method == RF_BY_SETS ? search_sets(solver, full, pressure, theta) : RF_STUCK;
+    if (status == RF_STUCK) {
+        status = search_by_newton(solver, full, pressure, theta);
+        if (status == RF_OK)
+            status = search_sets(solver, full, pressure, theta);
+    }
+    return status;
+}
+
 int rf_oil_film(const rf_oil_cells *cells, int method, int guessed, uint8_t *full, double *pressure, double *theta,
                 rf_oil_work *work)
 {
     rf_oil_solver solver;
-    int status = open_solver(&solver, cells, 0);
-    if (status == RF_OK) {
-        if (!guessed && (method == RF_BY_NEWTON || guess_from_coarser(cells, full, pressure, theta) != RF_OK))
-            guess_sets(&solver, full, pressure, theta);
-        status = method == RF_BY_SETS ? search_sets(&solver, full, pressure, theta) : RF_STUCK;
-        if (status == RF_STUCK) {
-            status = search_by_newton(&solver, full, pressure, theta);
-            if (status == RF_OK)
-                status = search_sets(&solver, full, pressure, theta);
-        }
-    }
+    int status = rf_open_oil_solver(&solver, cells, 0);
+    if (status == RF_OK)
+        status = rf_search_oil(&solver, cells, method, guessed, full, pressure, theta);
     *work = solver.work;
-    close_solver(&solver);
+    rf_close_oil_solver(&solver);
     return status;
 }
 
@@ -264,6 +264,12 @@ static void respond(rf_oil_solver *solver, double *real, double *imaginary)
     spread(solver, solver->right, real);
 }
 
+void rf_follow_oil(rf_oil_solver *solver, size_t count, double *right)
+{
+    for (size_t k = 0; k < count; ++k)
+        respond(solver, right + k * cells_of(solver), NULL);
+}
+
 /* y -= a x, number by number. */
 static void subtract_products(size_t n, const double *const a[2], double *const x[2], double *const y[2])
 {
@@ -278,7 +284,7 @@ int rf_oil_response(const rf_oil_cells *cells, const uint8_t *full, const double
                     const double *coupling, size_t count, double *right, double *right_imaginary)
 {
     rf_oil_solver solver;
-    int status = open_solver(&solver, cells, imaginary != NULL);
+    int status = rf_open_oil_solver(&solver, cells, imaginary != NULL);
     const size_t all = cells->lines * cells->nodes, rows = coupling ? 2 * count : count;
     const double *const by[2] = {coupling, coupling ? coupling + all : NULL};
     for (size_t q = 0; q < all && status == RF_OK; ++q) {
@@ -297,6 +303,6 @@ int rf_oil_response(const rf_oil_cells *cells, const uint8_t *full, const double
         }
         respond(&solver, now[0], now[1]);
     }
-    close_solver(&solver);
+    rf_close_oil_solver(&solver);
     return status;
 }

@@ -17,6 +17,29 @@ typedef struct rf_oil_work {
     int64_t newton;    /* those of Newton's method */
 } rf_oil_work;
 
+/* The work of searches on cells of one shape. After a search that found its film it has the factors of its matrix. */
+typedef struct rf_oil_solver {
+    const rf_oil_cells *cells;
+    rf_oil_places places;
+    rf_border_band band;
+    double *by_pressure, *by_theta, *flow; /* N x M */
+    double *right, *imaginary;             /* of the matrix */
+    rf_oil_work work;
+    void *memory;
+} rf_oil_solver;
+
+/* RF_OK or RF_MEMORY. */
+int rf_open_oil_solver(rf_oil_solver *solver, const rf_oil_cells *cells, int is_complex);
+
+void rf_close_oil_solver(rf_oil_solver *solver);
+
+/* rf_oil_film in a solver, whose work is then that of this search. */
+int rf_search_oil(rf_oil_solver *solver, const rf_oil_cells *cells, int method, int guessed, uint8_t *full,
+                  double *pressure, double *theta);
+
+/* rf_oil_response of the film that a solver has just found, with no further storage. */
+void rf_follow_oil(rf_oil_solver *solver, size_t count, double *right);
+
 /* Set P and theta, which come with their values in openings that are held. `full` is the guess of the cells that
    are full if `guessed`, else they are those of the film on half the cells; it then tells them. `method` is
    RF_BY_SETS, or RF_BY_NEWTON to begin with that. RF_STUCK, RF_MEMORY. */

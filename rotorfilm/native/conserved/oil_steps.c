@@ -63,37 +63,50 @@ static void set_differences(double ratio, double *a, double *b, double *c)
     *c = ratio * ratio / (1.0 + ratio);
 }
 
-/* Equations of a search, and what their storage holds. */
-typedef struct search {
-    rf_oil_cells cells;
-    double *numbers, *old, *carried;
-} search;
-
-static int open_search(search *self, const rf_oil_shape *shape)
+int rf_open_room(rf_oil_room *room, const rf_oil_shape *shape)
 {
     const size_t all = shape->lines * shape->nodes;
-    self->numbers = calloc(rf_equation_numbers(shape) + 2 * all, sizeof *self->numbers);
-    if (!self->numbers)
+    memset(room, 0, sizeof *room);
+    room->numbers = calloc(rf_equation_numbers(shape) + 2 * all, sizeof *room->numbers);
+    if (!room->numbers)
         return RF_MEMORY;
-    self->old = self->numbers + rf_equation_numbers(shape);
-    self->carried = self->old + all;
-    return RF_OK;
+    room->old = room->numbers + rf_equation_numbers(shape);
+    room->carried = room->old + all;
+    room->cells.lines = shape->lines;
+    room->cells.nodes = shape->nodes;
+    room->cells.openings = shape->openings;
+    room->cells.opening = shape->opening;
+    room->cells.fed = shape->fed;
+    return rf_open_oil_solver(&room->solver, &room->cells, 0);
+}
+
+void rf_close_room(rf_oil_room *room)
+{
+    rf_close_oil_solver(&room->solver);
+    free(room->numbers);
+}
+
+/* The room of what is found, or one of its own. */
+static int enter(rf_oil_room *own, const rf_oil_shape *shape, rf_oil_found *found, rf_oil_room **room)
+{
+    memset(own, 0, sizeof *own);
+    *room = found->room ? found->room : own;
+    return found->room ? RF_OK : rf_open_room(own, shape);
 }
 
 /* Solve the equations, from the cells that are full. */
-static int solve(search *self, const rf_oil_shape *shape, int guessed, rf_oil_found *found)
+static int solve(rf_oil_room *self, const rf_oil_shape *shape, int guessed, rf_oil_found *found)
 {
-    rf_oil_work work;
     rf_hold_openings(shape, found->pressure, found->theta);
-    const int status =
-        rf_oil_film(&self->cells, RF_BY_SETS, guessed, found->full, found->pressure, found->theta, &work);
-    found->work.solutions += work.solutions;
-    found->work.newton += work.newton;
+    const int status = rf_search_oil(&self->solver, &self->cells, RF_BY_SETS, guessed, found->full, found->pressure,
+                                     found->theta);
+    found->work.solutions += self->solver.work.solutions;
+    found->work.newton += self->solver.work.newton;
     return status;
 }
 
 /* A step by differences a, b, c over dt. */
-static int solve_step(search *self, const rf_oil_shape *shape, const rf_oil_gap *gap, double rate,
+static int solve_step(rf_oil_room *self, const rf_oil_shape *shape, const rf_oil_gap *gap, double rate,
                       const rf_oil_past *past, double dt, const double *by, rf_oil_found *found)
 {
     found->rate = by[0];
@@ -120,30 +133,29 @@ int rf_oil_step(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, c
 {
     const double ratio = past->length > 0.0 ? dt / past->length : HUGE_VAL;
     double a, b, c;
-    search self;
+    rf_oil_room own, *self;
     memset(&found->work, 0, sizeof found->work);
-    int status = open_search(&self, shape);
-    if (status != RF_OK)
-        return status;
-    rf_sharpen_oil(shape, gap, rate, found->theta, self.carried);
-    int done = 0;
-    if (ratio <= MOST_GROWTH) {
+    int status = enter(&own, shape, found, &self), done = status != RF_OK;
+    if (status == RF_OK)
+        rf_sharpen_oil(shape, gap, rate, found->theta, self->carried);
+    if (!done && ratio <= MOST_GROWTH) {
         set_differences(ratio, &a, &b, &c);
         const double second[3] = {a / dt, b / dt, c / dt};
-        status = solve_step(&self, shape, gap, rate, past, dt, second, found);
+        status = solve_step(self, shape, gap, rate, past, dt, second, found);
         done = status != RF_OK || !is_in_debt(shape, found->theta);
     }
     if (!done) {
         const double first[3] = {1.0 / dt, -1.0 / dt, 0.0};
-        status = solve_step(&self, shape, gap, rate, past, dt, first, found);
+        status = solve_step(self, shape, gap, rate, past, dt, first, found);
     }
-    memcpy(found->old, self.old, shape->lines * shape->nodes * sizeof *found->old);
-    free(self.numbers);
+    if (status == RF_OK)
+        memcpy(found->old, self->old, shape->lines * shape->nodes * sizeof *found->old);
+    rf_close_room(&own);
     return status;
 }
 
 /* Solve again with transport as the last theta has it, until that changes no more. */
-static int settle(search *self, const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, double *last,
+static int settle(rf_oil_room *self, const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, double *last,
                   rf_oil_found *found)
 {
     const size_t all = shape->lines * shape->nodes;
@@ -168,18 +180,19 @@ static int settle(search *self, const rf_oil_shape *shape, const rf_oil_gap *gap
 
 int rf_oil_rest(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, rf_oil_found *found)
 {
-    search self;
+    rf_oil_room own, *self;
     memset(&found->work, 0, sizeof found->work);
     found->rate = found->lag = 0.0;
-    int status = open_search(&self, shape);
-    if (status != RF_OK)
-        return status;
-    rf_set_oil(shape, gap, NULL, rate, 0.0, &self.cells, self.numbers);
-    status = solve(&self, shape, 0, found);
+    int status = enter(&own, shape, found, &self);
+    if (status == RF_OK) {
+        rf_set_oil(shape, gap, NULL, rate, 0.0, &self->cells, self->numbers);
+        memset(self->old, 0, shape->lines * shape->nodes * sizeof *self->old);
+        status = solve(self, shape, 0, found);
+    }
     if (status == RF_OK) /* `old` of what is found has no part yet */
-        status = settle(&self, shape, gap, rate, found->old, found);
+        status = settle(self, shape, gap, rate, found->old, found);
     if (status == RF_OK)
-        memcpy(found->old, self.old, shape->lines * shape->nodes * sizeof *found->old);
-    free(self.numbers);
+        memcpy(found->old, self->old, shape->lines * shape->nodes * sizeof *found->old);
+    rf_close_room(&own);
     return status;
 }

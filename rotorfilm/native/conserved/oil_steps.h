@@ -11,6 +11,18 @@ typedef struct rf_oil_past {
     double length;
 } rf_oil_past;
 
+/* The work of steps of a film, and the equations of the last one. */
+typedef struct rf_oil_room {
+    rf_oil_cells cells;
+    rf_oil_solver solver;
+    double *numbers, *old, *carried;
+} rf_oil_room;
+
+/* RF_OK or RF_MEMORY. */
+int rf_open_room(rf_oil_room *room, const rf_oil_shape *shape);
+
+void rf_close_room(rf_oil_room *room);
+
 /* A film. Where one is sought, theta and `full` come as those of a film nearby. */
 typedef struct rf_oil_found {
     double *pressure, *theta; /* N x M */
@@ -19,6 +31,7 @@ typedef struct rf_oil_found {
     double rate; /* of that storage */
     double lag;  /* how the step differs: rate dt change = dt flow + lag times the change in the step before */
     rf_oil_work work;
+    rf_oil_room *room; /* that of several steps, or NULL */
 } rf_oil_found;
 
 /* What leaves the cells, N x M, beyond transport at upstream theta: at a face theta is that upstream plus d- d+/(d- + d+)

@@ -8,36 +8,28 @@
 #define HALVINGS 4 /* times that all inner steps are halved before a step is given up */
 #define MOST_PIECES 1e6
 
-/* One block for what is new, and the work of a step. */
-typedef struct traveler {
-    const rf_oil_film_si *film;
-    size_t all;
-    double *block, *gap, *equations, *slopes;
-    rf_oil_found found;
-} traveler;
-
 size_t rf_oil_numbers(const rf_oil_shape *shape)
 {
     return RF_OIL_CELLS + RF_OIL_ROWS * shape->lines * shape->nodes;
 }
 
-static double *row(const traveler *self, size_t k)
+static double *row(const rf_oil_traveler *self, size_t k)
 {
     return self->block + RF_OIL_CELLS + k * self->all;
 }
 
-static int open_traveler(traveler *self, const rf_oil_film_si *film, rf_message *why)
+int rf_open_traveler(rf_oil_traveler *self, const rf_oil_film_si *film, rf_message *why)
 {
     const rf_oil_shape *shape = &film->shape;
     const size_t all = shape->lines * shape->nodes, numbers = rf_oil_numbers(shape);
     self->film = film;
     self->all = all;
-    self->block = calloc(numbers + rf_gap_numbers(shape) + rf_equation_numbers(shape) + 8 * all, sizeof *self->block);
-    if (!self->block)
+    self->block = calloc(numbers + rf_gap_numbers(shape) + 8 * all, sizeof *self->block);
+    self->found.room = &self->room;
+    if (rf_open_room(&self->room, shape) != RF_OK || !self->block)
         return rf_say(why, RF_MEMORY, "no memory for a film");
     self->gap = self->block + numbers;
-    self->equations = self->gap + rf_gap_numbers(shape);
-    self->found.pressure = self->equations + rf_equation_numbers(shape);
+    self->found.pressure = self->gap + rf_gap_numbers(shape);
     self->found.theta = self->found.pressure + all;
     self->found.old = self->found.theta + all;
     self->slopes = self->found.old + all;
@@ -45,8 +37,9 @@ static int open_traveler(traveler *self, const rf_oil_film_si *film, rf_message 
     return RF_OK;
 }
 
-static void close_traveler(traveler *self)
+void rf_close_traveler(rf_oil_traveler *self)
 {
+    rf_close_room(&self->room);
     free(self->block);
 }
 
@@ -84,36 +77,26 @@ static int judged(int status, double t, const double *motion, rf_message *why)
                   t, motion[0], motion[1]);
 }
 
-static rf_oil_gap gap_of(const traveler *self, const double *motion)
+static rf_oil_gap gap_of(const rf_oil_traveler *self, const double *motion)
 {
     const double place[RF_OIL_FREEDOMS] = {motion[0] / self->film->clearance, motion[1] / self->film->clearance};
     rf_circular_gap(&self->film->shape, 1.0, place, self->gap);
     return rf_gap_in(&self->film->shape, self->gap);
 }
 
-/* The equations of what was found. */
-static rf_oil_cells equations_of(traveler *self, const rf_oil_gap *gap, double rate)
-{
-    rf_oil_cells cells;
-    rf_set_oil(&self->film->shape, gap, NULL, rate, self->found.rate, &cells, self->equations);
-    cells.old = self->found.old;
-    return cells;
-}
-
 /* Set the sums of what was found, in SI units. */
-static int set_answer(traveler *self, const rf_oil_gap *gap, double rate)
+static int set_answer(rf_oil_traveler *self, const rf_oil_gap *gap)
 {
     const rf_oil_film_si *film = self->film;
     double *sums = self->block + RF_OIL_ANSWER;
-    const rf_oil_cells cells = equations_of(self, gap, rate);
-    const int status = rf_oil_sums(&film->shape, gap, &cells, self->found.pressure, self->found.theta, sums);
+    const int status = rf_oil_sums(&film->shape, gap, &self->room.cells, self->found.pressure, self->found.theta, sums);
     for (size_t k = 0; k < RF_OIL_SUMS; ++k)
         sums[k] *= k < RF_OIL_OUT ? film->force : film->oil;
     return status;
 }
 
 /* Set what each flow was in a step, by the very differences by which the oil in the gap changed. */
-static void add_up(traveler *self, double dt)
+static void add_up(rf_oil_traveler *self, double dt)
 {
     const double *flow = self->block + RF_OIL_ANSWER + RF_OIL_OUT;
     double *passed = self->block + RF_OIL_PASSED;
@@ -122,7 +105,7 @@ static void add_up(traveler *self, double dt)
 }
 
 /* Take what was found as the end of a step of length dt. */
-static int keep(traveler *self, const rf_oil_gap *gap, const double *motion, double dt)
+static int keep(rf_oil_traveler *self, const rf_oil_gap *gap, const double *motion, double dt)
 {
     self->block[RF_OIL_LENGTH] = dt;
     memcpy(self->block + RF_OIL_MOTION, motion, RF_MOTION * sizeof *motion);
@@ -133,18 +116,18 @@ static int keep(traveler *self, const rf_oil_gap *gap, const double *motion, dou
         row(self, 0)[q] = self->found.theta[q] * gap->line[q];
         row(self, 4)[q] = self->found.full[q];
     }
-    const int status = set_answer(self, gap, self->film->carrying * motion[4]);
+    const int status = set_answer(self, gap);
     add_up(self, dt);
     return status;
 }
 
 int rf_oil_begin(const rf_oil_film_si *film, const double *motion, double *block, rf_message *why)
 {
-    traveler self;
+    rf_oil_traveler self;
     int status = require_inside(film, motion, 0.0, why);
     if (status != RF_OK)
         return status;
-    status = open_traveler(&self, film, why);
+    status = rf_open_traveler(&self, film, why);
     if (status == RF_OK) {
         const rf_oil_gap gap = gap_of(&self, motion);
         status = rf_oil_rest(&film->shape, &gap, film->carrying * motion[4], &self.found);
@@ -157,7 +140,7 @@ int rf_oil_begin(const rf_oil_film_si *film, const double *motion, double *block
         memcpy(self.block + RF_OIL_MEANS, self.block + RF_OIL_ANSWER + RF_OIL_OUT, RF_OIL_FLOWS * sizeof(double));
         memcpy(block, self.block, rf_oil_numbers(&film->shape) * sizeof *block);
     }
-    close_traveler(&self);
+    rf_close_traveler(&self);
     return status;
 }
 
@@ -174,7 +157,7 @@ static void set_between(const double *begin, const double *end, double dt, doubl
 }
 
 /* One inner step, from a film that is near that at its end. */
-static int inner_step(traveler *self, const double *motion, double dt, const double *near, int sweeps, int64_t *solutions)
+static int inner_step(rf_oil_traveler *self, const double *motion, double dt, const double *near, int sweeps, int64_t *solutions)
 {
     if (!(least_film(self->film, motion) > 0.0))
         return RF_STUCK;
@@ -194,18 +177,17 @@ static int inner_step(traveler *self, const double *motion, double dt, const dou
     return keep(self, &gap, motion, dt);
 }
 
-/* -d force / d place of what was found, its equations set: the oil of the last step stays. */
-static int set_stiffness(traveler *self, const double *motion, double *stiffness)
+/* -d force / d place of what was just found: the oil of the last step stays. */
+static int set_stiffness(rf_oil_traveler *self, const double *motion, double *stiffness)
 {
     const rf_oil_film_si *film = self->film;
     const rf_oil_shape *shape = &film->shape;
     const double rate = film->carrying * motion[4];
-    const rf_oil_gap gap = gap_of(self, motion);
-    const rf_oil_cells cells = equations_of(self, &gap, rate);
-    int status = rf_oil_slopes(shape, &gap, rate, self->found.rate, self->found.pressure, self->found.theta, 2,
+    const rf_oil_gap gap = rf_gap_in(shape, self->gap);
+    const int status = rf_oil_slopes(shape, &gap, rate, self->found.rate, self->found.pressure, self->found.theta, 2,
                                self->slopes, self->slopes + 2 * self->all);
     if (status == RF_OK)
-        status = rf_oil_response(&cells, self->found.full, NULL, NULL, NULL, 2, self->slopes, NULL);
+        rf_follow_oil(&self->room.solver, 2, self->slopes);
     memset(stiffness, 0, 4 * sizeof *stiffness);
     for (size_t k = 0; k < 4; ++k)
         for (size_t q = 0; q < self->all && status == RF_OK; ++q)
@@ -215,31 +197,37 @@ static int set_stiffness(traveler *self, const double *motion, double *stiffness
     return status;
 }
 
+int rf_try_oil(rf_oil_traveler *self, const double *block, const double *near, const double *motion, double dt, double *end,
+               double *stiffness, int64_t *solutions)
+{
+    const size_t bytes = rf_oil_numbers(&self->film->shape) * sizeof *block;
+    memcpy(self->block, block, bytes);
+    int status = inner_step(self, motion, dt, near, 1, solutions);
+    if (status == RF_OK && stiffness)
+        status = set_stiffness(self, motion, stiffness);
+    for (size_t k = 0; k < RF_OIL_FLOWS; ++k)
+        self->block[RF_OIL_MEANS + k] = self->block[RF_OIL_PASSED + k] / dt;
+    if (status == RF_OK)
+        memcpy(end, self->block, bytes);
+    return status;
+}
+
 int rf_oil_attempt(const rf_oil_film_si *film, const double *block, const double *near, const double *motion, double dt,
                    double *end, double *stiffness, int64_t *work)
 {
-    traveler self;
+    rf_oil_traveler self;
     rf_message why;
-    int status = open_traveler(&self, film, &why);
-    if (status != RF_OK)
-        return status;
-    const size_t bytes = rf_oil_numbers(&film->shape) * sizeof *block;
-    memcpy(self.block, block, bytes);
+    int status = rf_open_traveler(&self, film, &why);
     work[0] = 1;
     work[1] = 0;
-    status = inner_step(&self, motion, dt, near, 1, work + 1);
-    if (status == RF_OK && stiffness)
-        status = set_stiffness(&self, motion, stiffness);
-    for (size_t k = 0; k < RF_OIL_FLOWS; ++k)
-        self.block[RF_OIL_MEANS + k] = self.block[RF_OIL_PASSED + k] / dt;
     if (status == RF_OK)
-        memcpy(end, self.block, bytes);
-    close_traveler(&self);
+        status = rf_try_oil(&self, block, near, motion, dt, end, stiffness, work + 1);
+    rf_close_traveler(&self);
     return status;
 }
 
 /* Go there in so many inner steps. */
-static int follow(traveler *self, double t, const double *begin, const double *end, double dt, int64_t pieces,
+static int follow(rf_oil_traveler *self, double t, const double *begin, const double *end, double dt, int64_t pieces,
                   int64_t *work, rf_message *why)
 {
     const double length = dt / (double)pieces;
@@ -278,14 +266,14 @@ int rf_oil_travel(const rf_oil_film_si *film, double t, const double *motion, do
     const double *begin = block + RF_OIL_MOTION;
     const size_t bytes = rf_oil_numbers(&film->shape) * sizeof *block;
     const int64_t fewest = fewest_pieces(film, begin, motion, dt);
-    traveler self;
+    rf_oil_traveler self;
     work[0] = work[1] = 0;
     if (fewest < 0)
         return rf_say(why, RF_STUCK, "a step of %.9g s must not have more than %g inner steps", dt, MOST_PIECES);
     int status = require_inside(film, motion, t + dt, why);
     if (status != RF_OK)
         return status;
-    status = open_traveler(&self, film, why);
+    status = rf_open_traveler(&self, film, why);
     for (int halving = 0; status == RF_OK && halving <= HALVINGS; ++halving) {
         memcpy(self.block, block, bytes);
         status = follow(&self, t, begin, motion, dt, fewest << halving, work, why);
@@ -295,6 +283,6 @@ int rf_oil_travel(const rf_oil_film_si *film, double t, const double *motion, do
     }
     if (status == RF_OK)
         memcpy(block, self.block, bytes);
-    close_traveler(&self);
+    rf_close_traveler(&self);
     return status;
 }

@@ -38,6 +38,20 @@ enum {
 
 size_t rf_oil_numbers(const rf_oil_shape *shape);
 
+/* One block for what is new, and the work of a step. */
+typedef struct rf_oil_traveler {
+    const rf_oil_film_si *film;
+    size_t all;
+    double *block, *gap, *slopes;
+    rf_oil_found found;
+    rf_oil_room room;
+} rf_oil_traveler;
+
+/* RF_OK or RF_MEMORY. */
+int rf_open_traveler(rf_oil_traveler *self, const rf_oil_film_si *film, rf_message *why);
+
+void rf_close_traveler(rf_oil_traveler *self);
+
 /* Begin with the steady film of a journal at rest in a motion. RF_AT_WALL, RF_STUCK, RF_MEMORY. */
 RF_EXPORT_LOOP int rf_oil_begin(const rf_oil_film_si *film, const double *motion, double *block, rf_message *why);
 
@@ -52,5 +66,9 @@ RF_EXPORT_LOOP int rf_oil_travel(const rf_oil_film_si *film, double t, const dou
    RF_STUCK, RF_MEMORY. */
 RF_EXPORT_LOOP int rf_oil_attempt(const rf_oil_film_si *film, const double *block, const double *near, const double *motion,
                                   double dt, double *end, double *stiffness, int64_t *work);
+
+/* The same in a traveler, which may go on to another trial; `end` may be `near`. Adds to the solutions. */
+int rf_try_oil(rf_oil_traveler *self, const double *block, const double *near, const double *motion, double dt, double *end,
+               double *stiffness, int64_t *solutions);
 
 #endif

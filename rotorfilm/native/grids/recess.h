@@ -1,15 +1,11 @@
 /* Bearings of fixed pads with recesses: Reynolds' equation in two dimensions on the arc of each pad.
 
-   Every pad has its own center of curvature, and all have the clearance c_p. With d the position of the journal from
-   that center, e = d/c_p, D the depth of the recess over c_p, w = velocity/c_p - (speed/2) z^ x e,
-   H = 1 - e.n + D and n = (cos theta, sin theta), z from the middle, 0, to the end, 1, of the bearing,
-
-       (m H^3 P_theta)_theta + (L/D)^-2 m H^3 P_zz = -w.n + (speed/2) D_theta,    p = 12 viscosity (R/c_p)^2 P,
-
-   m is the mobility of the oil at H, P = 0 at the ends of the pad and of the bearing, P >= 0 where the film ruptures. Cells are rectangles of one
-   depth, the edges of the recess are on nodes, and on either side of a node conductance and Couette flux are those
-   of the half cell there: what drives oil at a step is the difference of both (Rayleigh 1918). Lines rest while the
-   journal moves, so the derivatives are those of the discrete film. */
+   Every pad is a ring of ring.h about its own center of curvature, and all have the clearance c_p: with d the
+   position of the journal from that center e = d/c_p, and D is the depth of the recess over c_p. P = 0 at the ends
+   of the pad and of the bearing. Cells are rectangles of one depth, the edges of the recess are on nodes, and on
+   either side of a node conductance and Couette flux are those of the half cell there: what drives oil at a step is
+   the difference of both (Rayleigh 1918). Lines rest while the journal moves, so the derivatives are those of the
+   discrete film. */
 #ifndef ROTORFILM_RECESS_H
 #define ROTORFILM_RECESS_H
 

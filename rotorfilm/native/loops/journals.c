@@ -7,37 +7,86 @@
 
 #define NUDGE 1e-6 /* of a clearance and a radian: the velocity with which a film at rest is asked */
 
+/* The film of a journal at a state of so many freedoms. */
+static int film_at(const rf_journals *journals, int32_t b, int freedoms, double *state, double *answer, double *jacobian)
+{
+    int status = journals->films[b](journals->of[b], state, answer, jacobian);
+    if (status == RF_UNDEFINED) {
+        /* The limit along a trace of velocity: no film has a derivative without a source. */
+        const double rate = state[freedoms];
+        state[freedoms] += NUDGE * journals->lengths[journals->points * b] * (fabs(state[2 * freedoms]) + 1.0);
+        status = journals->films[b](journals->of[b], state, answer, jacobian);
+        state[freedoms] = rate;
+        status = status == RF_UNDEFINED ? RF_OK : status;
+    }
+    const int forces = freedoms, slopes = freedoms * (2 * freedoms + 1);
+    if (status < RF_AT_WALL && (rf_is_broken(answer, (size_t)forces) || rf_is_broken(jacobian, (size_t)slopes)))
+        status = RF_NOT_FINITE;
+    return status;
+}
+
+/* A journal without tilt: force[2], slope[2][4]. */
+static int planar(const rf_journals *journals, int32_t b, const double *at, double speed, double *force, double *slope)
+{
+    double state[5] = {at[0], at[1], at[2], at[3], speed}, jacobian[10];
+    const int status = film_at(journals, b, 2, state, force, jacobian);
+    for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 4; ++j)
+            slope[4 * i + j] = jacobian[5 * i + j];
+    return status;
+}
+
+/* A journal at two points: force[4], slope[4][8]. Freedoms are (x, y, tilt_x, tilt_y) = part (x, y of both). */
+static int tilted(const rf_journals *journals, int32_t b, const double *at, double speed, double *force, double *slope)
+{
+    const double h = journals->arms[b] > 0.0 ? 0.5 / journals->arms[b] : 0.0;
+    const double part[4][4] = {{0.5, 0.0, 0.5, 0.0}, {0.0, 0.5, 0.0, 0.5}, {0.0, -h, 0.0, h}, {h, 0.0, -h, 0.0}};
+    const int freedoms = h > 0.0 ? 4 : 2, width = 2 * freedoms + 1;
+    double state[9] = {0.0}, answer[4], jacobian[36];
+    for (int i = 0; i < freedoms; ++i)
+        for (int j = 0; j < 4; ++j) {
+            state[i] += part[i][j] * at[4 * (j / 2) + j % 2];
+            state[freedoms + i] += part[i][j] * at[4 * (j / 2) + 2 + j % 2];
+        }
+    state[2 * freedoms] = speed;
+    const int status = film_at(journals, b, freedoms, state, answer, jacobian);
+    for (int r = 0; r < 4; ++r) {
+        force[r] = 0.0;
+        for (int q = 0; q < 8; ++q)
+            slope[8 * r + q] = 0.0;
+        for (int i = 0; i < freedoms; ++i) {
+            force[r] += part[i][r] * answer[i];
+            for (int k = 0; k < 2 * freedoms; ++k)
+                for (int j = 0; j < 4; ++j)
+                    slope[8 * r + 4 * (j / 2) + 2 * (k / freedoms) + j % 2] +=
+                        part[i][r] * jacobian[width * i + k] * part[k % freedoms][j];
+        }
+    }
+    return status;
+}
+
 int rf_set_forces(const rf_journals *journals, const double *motion, double speed, double *force, double *slope)
 {
+    const int32_t points = journals->points, rows = 4 * points;
     int worst = RF_OK;
-    for (int32_t b = 0; b < journals->count; ++b) {
-        double state[5], answer[2], jacobian[10];
-        for (int k = 0; k < 4; ++k)
-            state[k] = journals->rest[4 * b + k] + motion[4 * b + k];
-        state[4] = speed;
-        if (hypot(state[0], state[1]) >= journals->walls[b])
-            return RF_AT_WALL;
-        int status = journals->films[b](journals->of[b], state, answer, jacobian);
-        if (status == RF_UNDEFINED) {
-            /* The limit along a trace of velocity: no film has a derivative without a source. */
-            state[2] += NUDGE * journals->lengths[b] * (fabs(speed) + 1.0);
-            status = journals->films[b](journals->of[b], state, answer, jacobian);
-            state[2] = journals->rest[4 * b + 2] + motion[4 * b + 2];
-            status = status == RF_UNDEFINED ? RF_OK : status;
-        }
-        if (status < RF_AT_WALL && (rf_is_broken(answer, 2) || rf_is_broken(jacobian, 10)))
-            status = RF_NOT_FINITE;
+    for (int32_t b = 0; b < journals->count / points; ++b) {
+        double at[8];
+        for (int32_t k = 0; k < rows; ++k)
+            at[k] = journals->rest[rows * b + k] + motion[rows * b + k];
+        for (int32_t p = 0; p < points; ++p)
+            if (hypot(at[4 * p], at[4 * p + 1]) >= journals->walls[points * b + p])
+                return RF_AT_WALL;
+        double *const to = force + 2 * points * b, *const by = slope + 2 * points * rows * b;
+        const int status = (points == 1 ? planar : tilted)(journals, b, at, speed, to, by);
         worst = status > worst ? status : worst;
         if (status >= RF_AT_WALL)
             return status;
-        for (int i = 0; i < 2; ++i) {
-            const int32_t row = 2 * b + i;
+        for (int32_t i = 0; i < 2 * points; ++i) {
+            const int32_t row = 2 * points * b + i, place = 4 * (i / 2) + i % 2;
             const double k = journals->spring[row], c = journals->damper[row];
-            force[row] = answer[i] + k * state[i] + c * state[2 + i];
-            for (int j = 0; j < 4; ++j)
-                slope[4 * row + j] = jacobian[5 * i + j];
-            slope[4 * row + i] += k;
-            slope[4 * row + 2 + i] += c;
+            to[i] = to[i] + k * at[place] + c * at[place + 2];
+            by[rows * i + place] += k;
+            by[rows * i + place + 2] += c;
         }
     }
     return worst;
@@ -46,8 +95,8 @@ int rf_set_forces(const rf_journals *journals, const double *motion, double spee
 int rf_journal_forces(const rf_journals *journals, int64_t samples, const double *motion, double speed,
                       double *force, double *slope)
 {
-    const int32_t forces = 2 * journals->count;
-    double *now = malloc((size_t)(2 * forces + forces + 4 * forces) * sizeof *now);
+    const int32_t forces = 2 * journals->count, slopes = 4 * journals->points * forces;
+    double *now = malloc((size_t)(2 * forces + forces + slopes) * sizeof *now);
     double *answer = now ? now + 2 * forces : NULL, *by = now ? answer + forces : NULL;
     int worst = now ? RF_OK : RF_MEMORY;
     for (int64_t n = 0; n < samples && worst < RF_AT_WALL; ++n) {
@@ -57,7 +106,7 @@ int rf_journal_forces(const rf_journals *journals, int64_t samples, const double
         worst = status > worst ? status : worst;
         for (int32_t q = 0; q < forces; ++q)
             force[q * samples + n] = answer[q];
-        for (int32_t q = 0; q < 4 * forces; ++q)
+        for (int32_t q = 0; q < slopes; ++q)
             slope[q * samples + n] = by[q];
     }
     free(now);

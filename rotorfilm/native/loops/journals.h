@@ -8,22 +8,29 @@
 #include "../films/film.h"
 
 /* The journals: forces at states (x, y, vx, vy, speed) as of rf_journal_at, beside springs and dampers that
-   the rotor rests on and that are given back here. */
+   the rotor rests on and that are given back here.
+
+   Where one of them feels its tilt, each is two points of the shaft beside its middle, with half of the force
+   and the moment over the arm: then films have states and forces as of rf_tilted_at, or with an arm of 0 as
+   before. */
 typedef struct rf_journals {
-    int32_t count;
+    int32_t count;                 /* of points: n */
+    int32_t points;                /* of each journal, 1 or 2 */
     const rf_response *films;
     const void *const *of;
     const double *rest;            /* 4 n: motion about which that of the rotor is counted */
     const double *spring, *damper; /* 2 n [N/m], [N s/m] */
     const double *lengths;         /* n: typical displacements [m] */
     const double *walls;           /* n: eccentricities at which a journal counts as touching [m] */
+    const double *arms;            /* n/points: distance of both points from the middle [m] */
 } rf_journals;
 
-/* Films' forces and springs (2 n) at one motion (4 n), and slopes by it (2 n x 4); the most severe status. */
+/* Films' forces and springs (2 n) at one motion (4 n), and slopes by that of the same journal (2 n x 4 points);
+   the most severe status. */
 int rf_set_forces(const rf_journals *journals, const double *motion, double speed, double *force, double *slope);
 
-/* Forces of films and springs (2 n rows) and slopes by x, y, vx, vy (2 n x 4 rows) of motions (4 n rows), rows
-   of `samples`, at one speed; the most severe status. */
+/* Forces of films and springs (2 n rows) and slopes by x, y, vx, vy (2 n x 4 points rows) of motions (4 n
+   rows), rows of `samples`, at one speed; the most severe status. */
 RF_EXPORT_LOOP int rf_journal_forces(const rf_journals *journals, int64_t samples, const double *motion,
                                      double speed, double *force, double *slope);
 

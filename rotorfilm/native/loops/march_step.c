@@ -15,9 +15,10 @@ int rf_open_scratch(rf_scratch *at, const rf_march *march)
 {
     const size_t s = (size_t)march->scheme.stages, channels = (size_t)march->rotor.channels;
     const size_t rows = (size_t)march->rotor.rows, modes = (size_t)march->rotor.modes;
-    const size_t all = 2 * s * (size_t)march->journals.count, drives = march->spin.matrix ? 2 * modes : 0;
+    const size_t all = 2 * s * (size_t)march->journals.count, wide = 4 * (size_t)march->journals.points;
+    const size_t drives = march->spin.matrix ? 2 * modes : 0;
     const size_t sizes[] = {s * channels, s * channels, channels, 2 * modes, s * rows, s * rows,  s * rows,
-                            s,            all,          4 * all,  s * drives, s * drives, drives, s * drives, all * all,
+                            s,            all,          wide * all,  s * drives, s * drives, drives, s * drives, all * all,
                             all,          2 * modes * s, 2 * modes * s};
     double **const places[] = {&at->u,      &at->guess, &at->start, &at->both,   &at->free, &at->motion,
                                &at->before, &at->speed, &at->force, &at->slope, &at->drive,
@@ -94,10 +95,11 @@ static void set_motion(const rf_march *march, const rf_step_table *table, rf_scr
 static int set_node_forces(rf_march *march, rf_scratch *at)
 {
     const int32_t rows = march->rotor.rows, forces = 2 * march->journals.count;
+    const int32_t slopes = 4 * march->journals.points * forces;
     int worst = RF_OK;
     for (int32_t i = 0; i < march->scheme.stages; ++i) {
         const int status = rf_set_forces(&march->journals, at->motion + i * rows, at->speed[i],
-                                         at->force + i * forces, at->slope + 4 * i * forces);
+                                         at->force + i * forces, at->slope + slopes * i);
         march->films += 1;
         if (status >= RF_AT_WALL)
             return status;
@@ -110,15 +112,15 @@ static int set_node_forces(rf_march *march, rf_scratch *at)
 static void set_equations(const rf_march *march, const rf_step_table *table, rf_scratch *at)
 {
     const int32_t s = march->scheme.stages, channels = march->rotor.channels, rows = march->rotor.rows;
-    const int32_t forces = 2 * march->journals.count, size = s * forces;
+    const int32_t forces = 2 * march->journals.count, size = s * forces, own = 2 * march->journals.points;
     memset(at->matrix, 0, (size_t)size * (size_t)size * sizeof *at->matrix);
     for (int32_t row = 0; row < size; ++row) {
         const int32_t i = row / forces, r = row % forces;
         double *to = at->matrix + row * size;
         for (int32_t j = 0; j < s; ++j)
-            for (int32_t k = 0; k < 4; ++k) {
-                const double slope = at->slope[4 * row + k];
-                const double *gain = table->gain + ((i * s + j) * rows + 4 * (r / 2) + k) * channels;
+            for (int32_t k = 0; k < 2 * own; ++k) {
+                const double slope = at->slope[2 * own * row + k];
+                const double *gain = table->gain + ((i * s + j) * rows + 2 * own * (r / own) + k) * channels;
                 for (int32_t c = 0; c < forces; ++c)
                     to[j * forces + c] -= slope * gain[c];
             }

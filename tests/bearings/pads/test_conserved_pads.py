@@ -12,6 +12,7 @@ from rotorfilm import FilmContactError, InputError, JFOFilm
 from rotorfilm.bearings import MomentCarryingJFOFilm, Pad, PadGridFilm, Recess, RecessedPad, rupture_error
 from rotorfilm.bearings.films.geometry import FilmGeometry, SunkArc
 from rotorfilm.bearings.films.mass_conserving import ConservedFilm, Supply, conserved_cells
+from rotorfilm.scenes import parse_scene
 
 DEGREE = math.pi / 180.0
 SIZE = {"radius": 0.05, "length": 0.06, "viscosity": 0.02}
@@ -233,6 +234,25 @@ def test_the_edge_of_a_pad_touches_between_the_faces_of_its_cells():
         film.start([*1.003 * edge, 0.0, 0.0, OMEGA])
 
 
+@pytest.mark.closed_form
+def test_the_temperature_over_pads_about_one_center_is_that_of_a_journal_bearing():
+    warm = {"oil": rf.Oil.iso_vg(46), "cooling": rf.Cooling(supply_temperature=318.15)}
+    size = {"radius": 0.05, "length": 0.06, **warm}
+    own = [{"start": start, "extent": extent} for start, extent in ARCS["two"]]
+    journal = rf.JournalBearing(**size, clearance=1e-4, pads=tuple(Pad(**one) for one in own))
+    lobed = rf.LobedBearing(**size, pad_clearance=1e-4, lobes=tuple(rf.Lobe(**one) for one in own))
+    one, other = (
+        rf.HeatedJFOFilm(film=JFOFilm(bearing=each, cells=(36, 4))).solve(HERE, OMEGA)
+        for each in (journal, lobed)
+    )
+    assert_allclose(other.oil_temperature, one.oil_temperature, rtol=1e-10)
+    dam = replace(DAM, viscosity=None, **warm)
+    state = rf.HeatedJFOFilm(film=JFOFilm(bearing=dam, cells=(36, 4))).solve(HERE, OMEGA)
+    losses = state.film.losses(HERE, REST, OMEGA)
+    assert abs(state.heat.missing) < 1e-12 * state.heat.made
+    assert state.heat.made == pytest.approx(losses.power_loss, rel=1e-12)
+
+
 def test_pads_that_tilt_are_refused():
     tilting = rf.TiltingPadBearing(**SIZE, pad_clearance=1e-4, pivots=(1.0, 3.0, 5.0), extent=1.2)
     with pytest.raises(InputError, match="pads that do not tilt for JFOFilm, got TiltingPadBearing"):
@@ -248,3 +268,58 @@ def test_an_equilibrium_with_heat_balances():
     assert_allclose(
         JFOFilm(bearing=heat, cells=(36, 4)).force(at.position, REST, OMEGA), [0.0, 2000.0], atol=0.01
     )
+
+
+SCENES = {
+    "lobed_journal": 'preset = "elliptical"\npreload = 0.4\n',
+    "pressure_dam": 'depth = 1.5e-4\nend = "140 deg"\nshare = 0.75\npreload = 0.2\n',
+}
+
+
+ROTOR = """[rigid_rotor]
+mass = 400.0
+unbalance = 1e-3
+"""
+
+
+def asked(table, film, quantity="side_flow", further=""):
+    text = f'''schema = 1
+[{table}]
+{SCENES[table]}radius = 0.05
+length = 0.06
+pad_clearance = 1e-4
+viscosity = 0.02
+{film}
+[operation]
+speed = 300.0
+load = 4000.0
+[question]
+quantity = "{quantity}"
+tolerance = 0.1
+{further}
+'''
+    return parse_scene(text, "pads.toml")
+
+
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
+@pytest.mark.parametrize("table", SCENES)
+def test_scenes_say_what_conserved_oil_changes_and_conserve_it_where_asked(table):
+    ruptured, conserved = (
+        asked(table, film).ask() for film in ("", 'film = { name = "jfo", cells = [72, 8] }')
+    )
+    sizes = [one.size for one in ruptured.remarks if "conservation of oil" in one]
+    assert conserved.met
+    assert conserved.model == "JFO 72 x 8"
+    change = abs(conserved.value / ruptured.value - 1.0)
+    assert sum(sizes) == pytest.approx(change, rel=0.5, abs=0.02)
+    assert len(sizes) == (table == "pressure_dam")
+    assert ("but conservation of oil" in ruptured.within) is (change > 0.1)
+    answer = asked(table, 'film = { name = "jfo", cells = [36, 4] }').describe()
+    assert answer.model == "JFOFilm(cells=(36, 4))"
+    assert answer.losses.side_flow == pytest.approx(conserved.value, rel=0.1)
+
+
+def test_motions_ask_for_a_law():
+    scene = asked("pressure_dam", 'film = { name = "jfo" }', "unbalance_amplitude", ROTOR)
+    with pytest.raises(InputError, match="film must be a quasi-static film law"):
+        scene.ask()

@@ -1,5 +1,7 @@
 """Flexible rotors on films that remember: the equations at each exponent, and a rigid journal as a limit."""
 
+import sys
+
 import numpy as np
 import pytest
 from scipy.linalg import eigvals
@@ -201,3 +203,19 @@ def test_python_control_has_the_films_at_all_frequencies_up_to_the_speed(films):
     assert system(1j * frequency)[row, column] == pytest.approx(
         (rotor.structure.journals[0] @ wanted).item(), rel=2e-3
     )
+
+
+def test_modes_follow_only_exponents_that_may_come_within_the_range(films, monkeypatch):
+    followed = []
+
+    def counted(structure, at, frequency, value, shape):
+        followed.append(value)
+        return frequency_dependent_motion(structure, at, frequency, value, shape)
+
+    module = sys.modules["rotorfilm.analysis.rotor_modes"]
+    frequency_dependent_motion = module.frequency_dependent_motion
+    monkeypatch.setattr(module, "frequency_dependent_motion", counted)
+    modes = rotor_modes(shaft(), films, 120.0, 1500.0)
+    # All motions of the 20 coordinates would be more than 20, and twice that with those of films with states.
+    assert len(modes.eigenvalues) <= len(followed) <= 3 * len(modes.eigenvalues)
+    assert len(set(followed)) == len(followed)

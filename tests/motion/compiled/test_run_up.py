@@ -27,8 +27,9 @@ from rotorfilm import (
     simulate,
     simulate_rotor,
 )
+from rotorfilm.analysis import compiled_rotor
 from rotorfilm.analysis.compiled_march import March, stretches
-from rotorfilm.analysis.compiled_rotor import modal_rotor, take_apart
+from rotorfilm.analysis.compiled_rotor import NeglectedMotion, modal_rotor, take_apart
 
 FILM = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 SPRINGS = LinearBearing(stiffness=((2e6, 5e5), (-5e5, 3e6)), damping=800.0)
@@ -196,3 +197,79 @@ def test_films_by_station_are_mounted_and_run():
         run["leftx"]
     whole = simulate(rotor, films, duration="50 ms", samples=11, rtol=1e-7, method=Radau)
     np.testing.assert_allclose(whole["left_y"], run["left_y"], atol=1e-4 * FILM.clearance)
+
+
+def driven(rotor, run):
+    """Return the journals of all of a rotor under the forces of the bearings in a run."""
+    model = rotor.operators
+    names = ["left_force_x", "left_force_y", "right_force_x", "right_force_y"]
+    turning = np.array([rotor.rotating(t) for t in run.time]).T
+    forces = np.vstack([*(run[name] for name in names), turning, np.ones(len(run.time))])
+    push = np.column_stack([model.push, model.unbalance, model.weight])
+    size, count = push.shape
+    step = run.time[1] - run.time[0]
+    whole = np.zeros((size + 2 * count, size + 2 * count))
+    whole[:size, :size] = model.steady + rotor.speed * model.by_speed
+    whole[:size, size : size + count] = push
+    whole[size : size + count, size + count :] = np.eye(count)
+    free, held, rising = np.split(expm(step * whole)[:size], [size, size + count], axis=1)
+    state, found = rotor.initial_state, []
+    for now, then in zip(forces.T, forces.T[1:], strict=False):
+        found.append(state)
+        state = free @ state + held @ now + rising @ (then - now) / step
+    rows = rotor.linearization(0.0, state, np.zeros(4)).C
+    places = [[signal.name for signal in rotor.outputs].index(name) for name in JOURNALS]
+    return rows[places] @ np.array(found).T
+
+
+@pytest.fixture
+def told(monkeypatch):
+    """Return how far neglected shapes moved the journals in each run, as it was judged."""
+    found, largest = [], NeglectedMotion.largest
+
+    def kept(self, run, states):
+        found.append(largest(self, run, states))
+        return found[-1]
+
+    monkeypatch.setattr(NeglectedMotion, "largest", kept)
+    return found
+
+
+@pytest.mark.closed_form
+def test_the_whole_shaft_under_the_forces_of_a_run_has_its_journals(told, monkeypatch):
+    rotor = overhung(350.0, 18)
+    rotor = replace(rotor, initial=tuple(at_rest(rotor, 350.0)))
+    monkeypatch.setattr(compiled_rotor, "FREQUENCY", 0.2)
+    away, ends = [], []
+    for condensation in (1.0, 5e-5, 1e-5):
+        run = simulate_rotor(both(rotor, FILM), duration=0.02, samples=2001, condensation=condensation)
+        journals = np.array([run[name] for name in JOURNALS])[:, :-1]
+        away.append(np.abs(driven(rotor, run) - journals).max() / FILM.clearance)
+        ends.append(told[-1])
+        assert told[-1] <= condensation
+        assert 0.2 * told[-1] < away[-1] < 1.3 * told[-1]
+    # The fewest shapes are too few for the default, and it takes more.
+    assert away[0] > 2e-4
+    assert away[2] < 1e-5
+    assert len(set(ends)) == 3
+
+
+def test_a_shaft_that_whirls_is_run_in_few_shapes(told):
+    # Two runs of unstable motion part exponentially; what the shapes neglect stays small.
+    rise, work = SpeedProfile(times=(0.0, 0.4), speeds=(300.0, 400.0)), []
+    for elements in (24, 48):
+        pieces = ShaftElement(length=1.5, outer_diameter=0.05, material=STEEL).split(elements)
+        disk = {"outer_diameter": 0.3, "density": 7810.0, "width": 0.07, "inner_diameter": 0.05}
+        rotor = ShaftRotor(
+            elements=pieces,
+            disks=(Disk.solid(elements // 3, **disk), Disk.solid(2 * elements // 3, **disk)),
+            stations=(Station(node=0, name="left"), Station(node=elements, name="right")),
+            unbalances=(Unbalance(node=elements // 3, unbalance=2e-4),),
+            speed=rise,
+        )
+        run = simulate_rotor(both(rotor, FILM), duration=0.4, samples=201, rtol=1e-6)
+        whirl = np.hypot(run["left_x"], run["left_y"]) / FILM.clearance
+        assert whirl.max() > 0.3
+        assert told[-1] < 1e-5
+        work.append(run.work["steps"])
+    assert work[1] < 2.5 * work[0]

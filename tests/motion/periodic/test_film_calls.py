@@ -48,7 +48,7 @@ def answer(bearing, state):
     call = film_call(bearing)
     films, of = np.array([[call.address], [call.data]], dtype=np.uintp)
     journals = JournalFilms(
-        films, of, np.zeros(4), np.zeros(2), np.zeros(2), np.array([1e-4]), np.array([np.inf])
+        films, of, np.zeros(4), *np.zeros((2, 2)), np.array([1e-4]), np.array([np.inf]), np.zeros(1)
     )
     status, force, slope = journals.forces(state[:4, None], state[4])
     return status, force[:, 0], slope[:, :, 0]

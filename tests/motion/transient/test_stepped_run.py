@@ -2,7 +2,6 @@
 
 import dataclasses
 import itertools
-import types
 from typing import ClassVar
 
 import numpy as np
@@ -26,7 +25,7 @@ from rotorfilm import (
     equilibrium,
     simulate,
 )
-from rotorfilm.analysis.stepped_run import Moment, StepError
+from rotorfilm.analysis.stepped_run import StepError
 
 R, c, mu, omega, mass = 0.05, 1e-4, 0.02, 314.0, 250.0
 TOP = Groove(center=np.pi / 2, width=np.radians(20.0), length=0.04)
@@ -232,49 +231,105 @@ def test_arguments_break_a_rule(rest):
     assert simulate(still, FILM, duration=1e-4, samples=2, max_step=2e-5).work["steps"] == 5
 
 
-class Circle:
-    """Moments of a journal on a circle, for what only reads them."""
-
-    def __init__(self, nu):
-        self.nu = nu
-        self.stations = [types.SimpleNamespace(motion=[0, 1, 2, 3, 4], film=FILM)]
-
-    def motion(self, t, state):
-        return np.append(state, omega)
-
-    def moment(self, t):
-        z, a = 0.3 * c * np.exp(1j * self.nu * t), 1j * self.nu
-        state = [z.real, z.imag, (a * z).real, (a * z).imag]
-        rate = [(a * z).real, (a * z).imag, (a * a * z).real, (a * a * z).imag]
-        return Moment(t, np.array(state), np.array(rate), (), np.zeros(0))
+def on_circle(nu, times):
+    """Return the motion of a journal on a circle, shape (n, 1, 5)."""
+    z, a = 0.3 * c * np.exp(1j * nu * times), 1j * nu
+    return np.stack([z.real, z.imag, (a * z).real, (a * z).imag, 0.0 * times], axis=-1)[:, None]
 
 
 @pytest.mark.closed_form
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 2.0])
 def test_the_error_of_steps_is_that_of_their_differences(ratio):
     # Steps h after k of second order leave (h + k)^2 h^2/(6 (2 h + k)) of the third derivative.
-    circle, h = Circle(3.0 * omega), 1e-3 / omega
-    error, k = StepError(circle), h / ratio
-    error.add(*(circle.moment(t) for t in np.cumsum([0.0, k, h])))
-    expected = (h + k) ** 2 * h**2 / (6.0 * (2.0 * h + k)) * 0.3 * circle.nu**3
+    nu, h = 3.0 * omega, 1e-3 / omega
+    error, k = StepError(np.array([c])), h / ratio
+    times = np.cumsum([0.0, k, h])
+    error.add(times, on_circle(nu, times))
+    expected = (h + k) ** 2 * h**2 / (6.0 * (2.0 * h + k)) * 0.3 * nu**3
     assert error.largest == pytest.approx(expected, rel=5e-3)
 
 
 @pytest.mark.closed_form
-def test_the_error_of_a_round_orbit_of_the_steps_is_twice_what_it_is_off():
+@pytest.mark.parametrize("pieces", [1, 7])
+def test_the_error_of_a_round_orbit_of_the_steps_is_twice_what_it_is_off(pieces):
     # BDF2 of x' = i x: (3 - 2 i h) g^2 - 4 g + 1 = 0 from step to step.
-    count, circle = 200, Circle(1.0)
-    h, error = 2.0 * np.pi / count, StepError(circle)
+    count, h = 200, 2.0 * np.pi / 200
     g = (2.0 + np.sqrt(1.0 + 2j * h)) / (3.0 - 2j * h)
-    places = 0.3 * c * g ** np.arange(-1, count + 1)
-    moments = [
-        Moment(n * h, np.array([z.real, z.imag, 0, 0]), np.array([-z.imag, z.real, 0, 0]), (), np.zeros(0))
-        for n, z in enumerate(places)
-    ]
-    for three in zip(moments, moments[1:], moments[2:], strict=False):
-        error.add(*three)
+    places, times = 0.3 * c * g ** np.arange(-1, count + 1), h * np.arange(count + 2)
+    motions = np.stack([places.real, places.imag, -places.imag, places.real, 0.0 * times], axis=-1)[:, None]
+    error = StepError(np.array([c]))
+    for rows in np.array_split(np.arange(count + 2), pieces):
+        rows = np.arange(max(rows[0] - 1, 0), rows[-1] + 1)
+        error.add(times[rows], motions[rows])
     assert error.largest == pytest.approx(0.3 * 4.0 * np.pi / 3.0 * h**2, rel=5e-3)
     assert error.largest == pytest.approx(2.0 * abs(places[-1] - places[1]) / c, rel=5e-3)
+
+
+class InPython(JFOFilm):
+    """A film whose steps the compiled loop does not take."""
+
+    def attempt(self, state, u, dt, near=None):
+        return super().attempt(state, u, dt, near)
+
+
+def test_the_compiled_loop_makes_the_steps_of_the_loop_in_python(rest):
+    steel = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
+    pieces = ShaftElement(length=0.5, outer_diameter=0.1, material=steel).split(2)
+    ends = (Station(node=0, name="left"), Station(node=2, name="right"))
+    rise = SpeedProfile(times=(0.0, 1.0), speeds=(omega, 1.5 * omega))
+    shaft = ShaftRotor(elements=pieces, stations=ends, speed=omega)
+    given = {"duration": 0.1 * TURN, "samples": 9, "max_step": TURN / 96}
+    for one in (rotor(rest, static_force=(0.0, -3e3)), shaft, dataclasses.replace(shaft, speed=rise)):
+        runs = []
+        for kind in (JFOFilm, InPython):
+            film = kind(bearing=BEARING, cells=(24, 4))
+            films = film if isinstance(one, RigidRotor) else {"left": film, "right": film}
+            runs.append(simulate(one, films, **given))
+        assert runs[0].work == runs[1].work
+        for name, row in runs[0].signals.items():
+            size = np.abs(row).max() or 1.0
+            np.testing.assert_allclose(row, runs[1][name], rtol=0.0, atol=1e-9 * size, err_msg=name)
+
+
+def test_steps_of_the_compiled_loop_that_fail_are_halved(rest):
+    light = RigidRotor(mass=50.0, speed=200.0, unbalance=1e-3, position=(2e-5, -4e-5))
+    size = {"radius": R, "length": 0.03, "clearance": c, "viscosity": 0.05}
+    bearing = JournalBearing(**size, grooves=(Groove(center=np.pi / 2, width=0.3),))
+    films = [kind(bearing=bearing, cells=(24, 4)) for kind in (JFOFilm, InPython)]
+    runs = [simulate(light, film, duration=0.002, max_step=0.0314 / 48) for film in films]
+    assert runs[0].work == runs[1].work
+    assert runs[0].work["restarts"] > 0
+    np.testing.assert_allclose(runs[0]["y"], runs[1]["y"], rtol=0.0, atol=1e-9 * c)
+    fallen = []
+    for kind in (JFOFilm, InPython):
+        thrown, film = rotor(rest, static_force=(0.0, -4e5)), kind(bearing=BEARING, cells=(24, 4))
+        with pytest.raises(ContactError, match="journal reached the wall") as caught:
+            simulate(thrown, film, duration=TURN, samples=99, max_step=TURN / 32)
+        fallen.append(caught.value)
+    assert str(fallen[0]) == str(fallen[1])
+    assert fallen[0].partial.work == fallen[1].partial.work
+    np.testing.assert_allclose(fallen[0].partial["y"], fallen[1].partial["y"], rtol=1e-9)
+
+
+def test_a_rotor_that_is_not_linear_is_solved_about_its_own_place(rest):
+    # A spring that hardens enough to matter, beside the film.
+    class Hard(RigidRotor):
+        def derivative(self, t, x, u):
+            rate = super().derivative(t, x, u)
+            rate[2:] -= 1e18 * np.asarray(x)[:2] ** 3 / self.mass
+            return rate
+
+        def linearization(self, t, x, u):
+            found = super().linearization(t, x, u)
+            found.A[2:, :2] -= np.diag(3e18 * np.asarray(x)[:2] ** 2 / self.mass)
+            return found
+
+    soft = rotor(rest)
+    hard = Hard(**{field.name: getattr(soft, field.name) for field in dataclasses.fields(soft)})
+    given = {"duration": 0.1 * TURN, "samples": 9, "max_step": TURN / 96}
+    runs = [simulate(hard, kind(bearing=BEARING, cells=(24, 4)), **given) for kind in (JFOFilm, InPython)]
+    np.testing.assert_allclose(runs[0]["y"], runs[1]["y"], rtol=1e-9)
+    assert np.abs(runs[0]["y"] - simulate(soft, FILM, **given)["y"]).max() > 1e-3 * c
 
 
 def test_a_run_tells_the_error_of_its_steps(rest):

@@ -1,0 +1,68 @@
+"""Many runs over time, as of a Monte Carlo study, shared by threads."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+from ..core.errors import ContactError, ConvergenceError, require_count
+from ..core.limits import WORKERS, require_at_most
+from ..core.results import Trajectory
+from .simulate import simulate
+from .threads import one_blas_thread
+
+
+@one_blas_thread
+def simulate_many(
+    runs: Iterable[Mapping[str, Any]],
+    *,
+    keep: Callable[[Trajectory], Any] | None = None,
+    workers: int | None = None,
+) -> list[Any]:
+    """Return the results of many runs over time, bit by bit those of `simulate`.
+
+    Parameters
+    ----------
+    runs : iterable of mapping of str to object
+        Arguments of `simulate` for each run, by name.
+    keep : callable, optional
+        Makes out of the trajectory of a run what is to be kept of it, as a peak. By default it is kept whole.
+    workers : int, optional
+        Number of threads; by default as many as the machine has cores.
+
+    Returns
+    -------
+    list
+        What `keep` returns for each run; the ContactError or ConvergenceError of one that ends early, which
+        carries its trajectory until then.
+
+    Raises
+    ------
+    InputError
+        If `workers` is not positive, or an argument of a run breaks its rule.
+
+    Examples
+    --------
+    >>> import rotorfilm as rf
+    >>> film = rf.JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.05)
+    >>> made = (rf.RigidRotor(mass=mass, speed=200.0) for mass in (90.0, 100.0))
+    >>> runs = ({"rotor": rotor, "reaction": film, "duration": 0.1} for rotor in made)
+    >>> lowest = rf.analysis.simulate_many(runs, keep=lambda run: run["y"].min())
+    >>> bool(lowest[1] < lowest[0] < 0.0)
+    True
+    """
+    count = (os.cpu_count() or 1) if workers is None else workers
+    require_count("workers", count)
+    require_at_most("workers", count, WORKERS)
+
+    def result(run: Mapping[str, Any]) -> Any:
+        try:
+            found = simulate(**run)
+        except (ContactError, ConvergenceError) as failure:
+            return failure
+        return found if keep is None else keep(found)
+
+    with ThreadPoolExecutor(count) as pool:
+        return list(pool.map(result, runs))

@@ -1,0 +1,71 @@
+"""K(s) of a film that conserves its oil: waves in the cavity beside a film that is factorized once."""
+
+import math
+
+import numpy as np
+import pytest
+
+from rotorfilm import Groove, JFOFilm, JournalBearing
+from rotorfilm.bearings.films import mass_conserving_steps
+from rotorfilm.bearings.films.mass_conserving_steps import FilmInMotion
+from rotorfilm.bearings.journal.jfo_film import MomentCarryingJFOFilm
+
+SIZE = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.05}
+OPEN = (Groove(center=math.pi / 2, width=0.3),)
+SHORT = tuple(Groove(center=angle, width=0.3, length=0.02) for angle in (0.3, 3.0))
+EXPONENTS = (0.0, 90j, -20.0 + 90j, -60.0, 2000.0 + 1j, 1e4 + 3e4j)
+
+
+class Direct(FilmInMotion):
+    """The same with a complex matrix of all cells at every exponent."""
+
+    _cavity = None
+
+
+def films():
+    fed = {"grooves": SHORT, "supply_pressure": 2e5}
+    yield JFOFilm(bearing=JournalBearing(**SIZE, grooves=OPEN), cells=(36, 4)), 200.0
+    yield JFOFilm(bearing=JournalBearing(**SIZE, **fed), cells=(36, 4)), 200.0
+    yield JFOFilm(bearing=JournalBearing(**SIZE, **fed), cells=(36, 4)), -300.0
+    film = JFOFilm(bearing=JournalBearing(**SIZE, **fed), cells=(24, 4))
+    yield MomentCarryingJFOFilm(film=film), 200.0
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize(("film", "speed"), list(films()))
+def test_waves_beside_one_factorization_are_the_solution_of_all_cells(film, speed):
+    place = np.array([3e-5, -5e-5, 1e-4, -1e-4])[: 4 if isinstance(film, MomentCarryingJFOFilm) else 2]
+    motion = film.dynamic_stiffness(place, speed)
+    assert motion._cavity.cells.size > 20
+    direct = Direct(motion.film, motion.state, motion.scale, motion.axes)
+    for s in EXPONENTS:
+        (K, slope), (expected, by_s) = motion(s), direct(s)
+        np.testing.assert_allclose(K, expected, rtol=0.0, atol=1e-11 * np.abs(expected).max())
+        np.testing.assert_allclose(slope, by_s, rtol=0.0, atol=1e-11 * np.abs(by_s).max())
+        stepped = direct.stiffness(s, as_stepped=True)
+        np.testing.assert_allclose(motion.stiffness(s, as_stepped=True), stepped, rtol=1e-9)
+
+
+def test_one_state_is_factorized_once_for_all_exponents(monkeypatch):
+    solved = []
+
+    def counted(*given):
+        solved.append(given)
+        return oil_response(*given)
+
+    oil_response = mass_conserving_steps.oil_response
+    monkeypatch.setattr(mass_conserving_steps, "oil_response", counted)
+    film, speed = next(films())
+    motion = film.dynamic_stiffness(np.array([3e-5, -5e-5]), speed)
+    for s in EXPONENTS:
+        motion(s)
+    assert len(solved) == 1
+
+
+def test_a_film_with_a_given_flow_takes_all_cells():
+    bearing = JournalBearing(**SIZE, grooves=SHORT)
+    motion = JFOFilm(bearing=bearing, cells=(36, 4), supply_flow=1e-6).dynamic_stiffness([3e-5, -5e-5], 200.0)
+    assert motion._cavity is None
+    step = 1e-3
+    change = (motion(90j + step)[0] - motion(90j - step)[0]) / (2.0 * step)
+    np.testing.assert_allclose(motion(90j)[1], change, rtol=1e-6)
