@@ -162,7 +162,7 @@ def equilibria(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) -> tuple[
         raise InputError(f"load must be one, or one for each of {grid.size} speeds, got shape {loads.shape}")
     columns = list(loads.T) if loads.ndim == 2 else [loads]
     planar = freedoms_of(reaction) == PLANAR
-    sound = planar and len(loads) == 2 and all(one.any() for one in columns)
+    sound = planar and loads.shape[:1] == (2,) and loads.ndim < 3 and all(one.any() for one in columns)
     for one in () if sound else columns:
         checked_load(one) if planar else require_place(reaction, one, "load")
     found = settled(reaction, columns, grid.tolist())

@@ -112,6 +112,8 @@ def test_each_speed_has_its_warnings():
         ([0.0, -1.0], 100.0, "speeds must be a list"),
         ([[0.0, 0.0, 1.0], [1.0, 1.0, 1.0]], [1.0, 2.0], "one for each of 2 speeds"),
         ([0.0, 0.0], [1.0, 2.0], "load must not be zero"),
+        (-5.0, [1.0, 2.0], r"load must be the components \(x, y\)"),
+        ([[[0.0]], [[-1.0]]], [1.0], r"load must have shape \(2,\)"),
         ([0.0, -1.0], [1.0, math.nan], "speeds must be finite"),
     ],
 )

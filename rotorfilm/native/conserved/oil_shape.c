@@ -209,13 +209,15 @@ double rf_least_gap(const rf_oil_shape *shape, const double *e)
     const size_t n = shape->lines, m = shape->nodes;
     double least = HUGE_VAL;
     for (size_t q = 0; q < n * m; ++q) {
-        const size_t i = q / m, beyond = i + 1 < n ? q + m : q % m;
+        const size_t i = q / m, j = q % m, before = line_before(shape, i), beyond = i + 1 < n ? q + m : j;
         const int here = shape->opening[q] == RF_FILM_CELL, there = shape->opening[beyond] == RF_FILM_CELL;
-        const double *direction = shape->direction + i, depth = depth_at(shape, i, q % m);
-        if (here || there)
+        const double *direction = shape->direction + i, depth = depth_at(shape, i, j);
+        if (here || there) {
             least = fmin(least, at(direction + 2 * n, n, wall_at(shape, AT_FACE, i), e) + depth);
-        if (here)
             least = fmin(least, at(direction, n, wall_at(shape, BEHIND, i), e) + depth);
+        }
+        if (here || shape->opening[before * m + j] == RF_FILM_CELL)
+            least = fmin(least, at(direction, n, wall_at(shape, BEFORE, i), e) + depth_at(shape, before, j));
     }
     return least;
 }

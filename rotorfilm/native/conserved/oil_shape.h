@@ -64,7 +64,7 @@ RF_EXPORT_LOOP void rf_set_oil(const rf_oil_shape *shape, const rf_oil_gap *gap,
 RF_EXPORT_LOOP void rf_set_oil_by_rate(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, rf_oil_cells *cells,
                                        double *numbers);
 
-/* The least gap at e over all lines and faces with film. */
+/* The least gap at e over all faces with film and both sides of all lines beside them. */
 double rf_least_gap(const rf_oil_shape *shape, const double *e);
 
 /* Size of a cell, or of the half of it in half the film: extent times width. */

@@ -221,6 +221,19 @@ def test_a_journal_touches_where_a_pad_does(film):
         film.start([*beyond, 0.0, 0.0, OMEGA])
 
 
+def test_the_edge_of_a_pad_touches_between_the_faces_of_its_cells():
+    """Where pads meet, the one before the line is the nearer one; the next begins with a step outward."""
+    lobes = tuple(
+        rf.Lobe(start=start, extent=extent, preload=0.4, offset=1.0) for start, extent in ARCS["all round"]
+    )
+    film = JFOFilm(bearing=rf.LobedBearing(**SIZE, pad_clearance=1e-4, lobes=lobes), cells=(36, 4))
+    edge = 0.6 * film.clearance * np.array([math.cos(240.0 * DEGREE), math.sin(240.0 * DEGREE)])
+    film.start([*0.997 * edge, 0.0, 0.0, OMEGA])
+    assert film.minimum_film(1.003 * edge) < 0.0
+    with pytest.raises(FilmContactError, match="the journal must leave a film on every pad"):
+        film.start([*1.003 * edge, 0.0, 0.0, OMEGA])
+
+
 @pytest.mark.closed_form
 def test_the_temperature_over_pads_about_one_center_is_that_of_a_journal_bearing():
     warm = {"oil": rf.Oil.iso_vg(46), "cooling": rf.Cooling(supply_temperature=318.15)}
