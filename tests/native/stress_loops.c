@@ -204,7 +204,7 @@ static void try_march(const rf_response *films, const void *const *of, int is_fr
     rf_step_table tables[RF_SLOTS + 1];
     masses rotor;
     double rest[ROWS] = {0.0}, spring[4] = {0.0}, damper[4] = {0.0}, lengths[] = {1e-4, 1e-4}, scales[ROWS];
-    const double walls[] = {1e-4, is_free ? HUGE_VAL : 1e-4}, duration = 0.02;
+    const double walls[] = {1e-4, is_free ? HUGE_VAL : 1e-4}, arms[JOURNALS] = {0.0}, duration = 0.02;
     const double speeds[] = {about(300.0, odd), about(300.0, odd)}, times[] = {0.0, 0.5 * duration};
     const double slopes[] = {(speeds[1] - speeds[0]) / times[1], 0.0};
     const double angles[] = {0.0, 0.5 * times[1] * (speeds[0] + speeds[1])};
@@ -231,7 +231,7 @@ static void try_march(const rf_response *films, const void *const *of, int is_fr
     rf_march march = {
         {MODES, CHANNELS, ROWS, rotor.values, rotor.push, rotor.sense},
         {STAGES, NODES, LAGRANGE, REMAINDER},
-        {JOURNALS, films, of, rest, spring, damper, lengths, walls},
+        {JOURNALS, 1, films, of, rest, spring, damper, lengths, walls, arms},
         {2, times, speeds, slopes, angles},
         {about(300.0, odd), is_free || uniform() < 0.5 ? NULL : turned, turned_rest},
         .scales = scales, .longest = duration / 3.0, .shortest = 1e-13 * duration,

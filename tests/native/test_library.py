@@ -23,8 +23,8 @@ LARGEST = {
     "rotorfilm_grid_systems": 144_000,
     "rotorfilm_heat": 110_000,
     "rotorfilm_pads": 76_000,
-    "rotorfilm_oil": 116_000,
-    "rotorfilm_loops": 392_000,
+    "rotorfilm_oil": 122_000,
+    "rotorfilm_loops": 408_000,
     "rotorfilm_master": 362_000,
 }
 """Bytes of each library on Linux, x86_64: what it has, and some room for other compilers."""
