@@ -7,7 +7,8 @@ from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
-from ..core.errors import ContactError, ConvergenceError, require_count
+from ..core.errors import ContactError, ConvergenceError, InputError, brief, require_count
+from ..core.inputs import arguments
 from ..core.limits import WORKERS, require_at_most
 from ..core.results import Trajectory
 from .simulate import simulate
@@ -15,6 +16,7 @@ from .threads import one_blas_thread
 
 
 @one_blas_thread
+@arguments
 def simulate_many(
     runs: Iterable[Mapping[str, Any]],
     *,
@@ -56,8 +58,12 @@ def simulate_many(
     count = (os.cpu_count() or 1) if workers is None else workers
     require_count("workers", count)
     require_at_most("workers", count, WORKERS)
+    if isinstance(runs, Mapping) or not isinstance(runs, Iterable):
+        raise InputError(f"runs must be mappings of the arguments of simulate, got {brief(runs)}")
 
     def result(run: Mapping[str, Any]) -> Any:
+        if not isinstance(run, Mapping):
+            raise InputError(f"runs must be mappings of the arguments of simulate, got {brief(run)}")
         try:
             found = simulate(**run)
         except (ContactError, ConvergenceError) as failure:

@@ -30,6 +30,7 @@ from ..scenes.film_heat import FIELD_LEVELS, FieldLevel, RestJudge, WarmRest, un
 from ..scenes.film_rungs import FilmCandidate, FilmRest, least_stable, whirl_growth, whirl_matrix
 from ..scenes.journal_tables import ConservingTable
 from ..scenes.solve_journal import conserved_threshold
+from ..scenes.turbulent import effect_of, is_left_laminar
 from .conserved_oil import Change, change_at_rest, coarse_films, conserved_ladder, conserved_oil, rest_on
 from .heat_levels import BALANCED, HeatLevel, WarmSolution, answer_below, heat
 from .quantities import QUANTITIES, TEMPERATURES, FilmQuantity, relative
@@ -152,9 +153,12 @@ EFFECTS = [
 
 def film_ladder(scene: Scene, films: Films, question: FilmQuestion) -> Ladder:
     """Return the ladder of a question on films of one viscosity, with the effects that the scene has."""
+    table = scene.film_table
+    if not question.moves and getattr(table, "conserves", False):
+        ladder = conserved_ladder(scene, question)
+        is_laminar = effect_of(table) is None and not is_left_laminar(table, scene)
+        return ladder if is_laminar else turbulent_oil(scene, question, films(scene), ladder)
     known = films(scene)
-    if not question.moves and getattr(scene.film_table, "conserves", False):
-        return turbulent_oil(scene, question, known, conserved_ladder(scene, question))
     rungs: list[Rung] = [question.make(film, count) for film in known for count in question.counts]
     if question.effort is not None:
         rungs.sort(key=question.effort)

@@ -215,8 +215,8 @@ def test_the_speed_of_a_system_fmu_is_said(run, tmp_path):
 
 
 def test_a_bearing_without_a_rotor_is_sent_to_python(run, tmp_path):
-    scene = tmp_path / "thrust.toml"
-    scene.write_text(run("new", "thrust")[1])
+    scene = tmp_path / "contact.toml"
+    scene.write_text(run("new", "contact")[1])
     code, _, err = run("fmu", "build", scene, "--out", tmp_path)
     assert code == 2
     assert "in Python `export_fmu` takes any bearing" in " ".join(err.split())

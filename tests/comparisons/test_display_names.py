@@ -26,6 +26,7 @@ ALLOWED = {
     # a picture finds its curve by the label in its legend, and breaks the lines of its title
     ("charts/on_plotly.py", "one.name == label"),
     ("charts/on_plotly.py", "one.title.replace('\\n', '<br>')"),
+    ("charts/on_plotly.py", "picture.title.replace('\\n', '<br>')"),
     ("charts/shaft_charts.py", "one.label == label"),
     # the station of a rotor by its name
     ("charts/shaft_charts.py", "(bearings or {}).get(station.name)"),

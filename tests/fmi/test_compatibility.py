@@ -66,7 +66,8 @@ def test_files_and_tables_are_complete(compatibility):
     for importer in {row["importer"] for row in rows}:
         of_it = [row for row in rows if row["importer"] == importer]
         passed = sum(row["passed"] == "yes" for row in of_it)
-        assert f"| {importer} | {of_it[0]['version']} | {len(of_it)} | {passed} |" in summary
+        versions = " and ".join(sorted({row["fmi"] for row in of_it}))
+        assert f"| {importer} | {of_it[0]['version']} | {versions} | {len(of_it)} | {passed} |" in summary
     for interface in compatibility.INTERFACES:
         for name in compatibility.build.RECIPES:
             of_case = [row for row in rows if (row["interface"], row["model"]) == (interface, name)]

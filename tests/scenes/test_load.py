@@ -307,7 +307,7 @@ def test_file_is_read(tmp_path):
             "clearence",
             r"case.toml: journal.clearence is no known key; known here: radius, diameter, length, clearance, "
             r"viscosity, supply_pressure, circumferential_groove, supply_flow, cavitation_pressure, "
-            r"submerged, film, pads, grooves, feed_holes, turbulence; did you mean 'clearance'\?",
+            r"submerged, film, pads, grooves, feed_holes, turbulence, tilt; did you mean 'clearance'\?",
         ),
         ("[journal]", "[jurnal]", r"case.toml: jurnal is no known key; .*; did you mean 'journal'\?"),
         ('clearance = "0.1 mm"', "", "case.toml: journal.clearance is required and missing"),
