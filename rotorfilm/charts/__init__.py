@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         plot_eccentricity as plot_eccentricity,
         plot_film as plot_film,
         plot_heated_film as plot_heated_film,
+        plot_pad_pressure as plot_pad_pressure,
         plot_phase as plot_phase,
         plot_pressure_field as plot_pressure_field,
         plot_temperature_across as plot_temperature_across,

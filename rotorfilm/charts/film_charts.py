@@ -10,6 +10,7 @@ from ..analysis import BistableMap, OrbitBranch, OrbitsOverSpeed, SynchronousOrb
 from ..bearings.damper import DamperTurn, JFOOrbit
 from ..bearings.journal import FilmState, HeatedState, JFOState
 from ..bearings.linear import TabulatedBearing
+from ..bearings.thrust import SectorPressure
 from ..core.errors import InputError
 from ..core.model import Array
 from ..core.units import CELSIUS
@@ -255,6 +256,15 @@ def plot_circumference(state: FilmState | HeatedState) -> Picture:
     panel = PicturePanel(
         marks, *text, right="film thickness [um]", x_limits=(0.0, 360.0), right_limits=(0.0, None)
     )
+    return Picture((panel,), size=(8.0, 4.0))
+
+
+def plot_pad_pressure(found: SectorPressure, *, title: str = "Pressure on a pad") -> Picture:
+    """Describe the pressure [MPa] on one pad of a thrust bearing over angle [deg] and radius [mm]."""
+    field = FieldMark(
+        np.degrees(found.angle), 1e3 * found.radius, 1e-6 * found.pressure.T, ColorScale(PRESSURE)
+    )
+    panel = PicturePanel([field], "angle from +x towards +y [deg]", "radius [mm]", title)
     return Picture((panel,), size=(8.0, 4.0))
 
 

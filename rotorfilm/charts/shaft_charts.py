@@ -11,6 +11,7 @@ import numpy as np
 from ..analysis import DeflectedShape, RotorModes
 from ..analysis.rotor_modes import senses
 from ..bearings.films.geometry import Pad
+from ..bearings.thrust import SectorPads
 from ..core.errors import InputError
 from ..core.inputs import arguments
 from ..rotors import Coupling, ShaftElement, ShaftRotor
@@ -115,8 +116,11 @@ def plot_bearing(bearing: Any) -> Picture:
     Parameters
     ----------
     bearing : object
-        With a radius and a length; of balls with their number, diameter and pitch diameter.
+        With a radius and a length; of balls with their number, diameter and pitch diameter; or sector pads
+        of a thrust bearing, which are seen along the shaft.
     """
+    if isinstance(bearing, SectorPads):
+        return _plot_sectors(bearing)
     balls = getattr(bearing, "balls", 0)
     radius = 500.0 * bearing.pitch_diameter if balls else 1e3 * bearing.radius
     length = 1e3 * bearing.ball_diameter if balls else 1e3 * bearing.length
@@ -155,18 +159,32 @@ def plot_bearing(bearing: Any) -> Picture:
     return Picture(panels, columns=2, size=(4.2, 4.0))
 
 
+def _plot_sectors(bearing: SectorPads) -> Picture:
+    """Describe the pads of a thrust bearing as seen along the shaft, with their pivots."""
+    inner, outer = 1e3 * bearing.inner_radius, 1e3 * bearing.outer_radius
+    starts = bearing.start + 2.0 * math.pi / bearing.pads * np.arange(bearing.pads)
+    marks = [_filled(_ring(0.0, 2.0 * math.pi, 0.0, 0.9 * inner), "shaft", STEEL)]
+    marks += [_filled(_ring(at, bearing.pad_arc, inner, outer), "", "#4c72b0") for at in starts]
+    marks[1] = marks[1]._replace(label="pad")
+    if bearing.tilts:
+        middle, radius = starts + bearing.origin * bearing.pad_arc, 1e3 * bearing.pivot_radius
+        pivots = radius * np.cos(middle), radius * np.sin(middle)
+        marks.append(CurveMark(*pivots, "pivot", "k", "", marker="x"))
+    text = f"{bearing.pads} pads of {math.degrees(bearing.pad_arc):.4g} deg, {inner:.4g} to {outer:.4g} mm"
+    panel = PicturePanel(marks, "x [mm]", "y [mm]", text, equal=True, legend="beside")
+    return Picture((panel,), size=(5.4, 4.0))
+
+
 def _filled(polygon: tuple[Any, Any], label: str, color: str) -> CurveMark:
     return CurveMark(*polygon, label, color, width=0.8, fill=0.6)
 
 
 def _ring(start: float, extent: float, inner: float, outer: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return the outline of a sector of a ring."""
+    """Return the closed outline of a sector of a ring."""
     angle = start + extent * np.linspace(0.0, 1.0, 73)
-    turned = angle[::-1]
-    return (
-        np.concatenate([outer * np.cos(angle), inner * np.cos(turned)]),
-        np.concatenate([outer * np.sin(angle), inner * np.sin(turned)]),
-    )
+    there_and_back = np.concatenate([angle, angle[::-1], angle[:1]])
+    radius = np.concatenate([np.full(73, outer), np.full(73, inner), [outer]])
+    return radius * np.cos(there_and_back), radius * np.sin(there_and_back)
 
 
 @arguments

@@ -16,6 +16,7 @@ import numpy as np
 from .. import analysis, charts
 from ..bearings.journal import JournalBearing, ReynoldsFilm, film_state
 from ..bearings.seal import AnnularSeal
+from ..charts import Picture
 from ..core.answers import LeftOutRemark, QuestionAnswer
 from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarning, require_positive
 from ..core.frames import Column, ResultTable
@@ -28,6 +29,7 @@ from ..scenes.shared_tables import kind_of
 from ..scenes.solve_damper import DamperAnswer
 from ..scenes.solve_journal import Answer
 from ..scenes.solve_shaft import RotorAnswer, added_unbalance
+from ..scenes.thrust import ThrustAnswer
 from .answer_rows import RPM, answer_rows, damper_rows, level_one_rows, rotor_rows, seconds_text
 from .motions import FollowedMotion, followed
 from .page import Block, Report, ReportSection, Verdict
@@ -166,7 +168,10 @@ def _machine(scene: Scene) -> Iterator[Block]:
         )
         return
     with suppress(InputError, AttributeError):  # a contact has no bearing to draw
-        bearing = scene.damper.build() if scene.damper is not None else scene.bearing
+        if scene.thrust is not None:
+            bearing = scene.thrust.one_side()
+        else:
+            bearing = scene.damper.build() if scene.damper is not None else scene.bearing
         yield charts.plot_bearing(getattr(bearing, "bearing", bearing))
 
 
@@ -267,8 +272,23 @@ def _results(scene: Scene, answer: Any, operating: tuple[float, float] | None) -
             pictures = [charts.picture_of(answer.response, kind) for kind in kinds]
             fine = Verdict("orbit on the damper", stable == count == 1, told)
             yield ReportSection("Orbits", [fine, damper_rows(answer), *pictures])
+        case ThrustAnswer():
+            pressed: list[Block] = [answer_rows(answer), _pad_pressure(scene, answer)]
+            yield ReportSection("Equilibrium, stiffness and damping", pressed)
         case Readable():
             yield ReportSection("Results", [answer_rows(answer)])
+
+
+def _pad_pressure(scene: Scene, answer: ThrustAnswer) -> Picture:
+    """Return the pressure on a pad, the same on all of the side of the collar that the load presses."""
+    at = answer.equilibrium
+    bearing = scene.thrust.build()
+    if at.temperature is not None:
+        bearing = bearing.at_temperature(at.temperature)
+    sides = getattr(bearing, "reactions", (bearing,))
+    each = [side.pressure(0, at.position, np.zeros(3), scene.speed) for side in sides]
+    shown = max(each, key=lambda one: float(one.pressure.max()))
+    return charts.plot_pad_pressure(shown, title=f"Pressure on each of {answer.bearing.pads} pads")
 
 
 def _film(scene: Scene, answer: Answer) -> Iterator[Block]:

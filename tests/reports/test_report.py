@@ -124,6 +124,24 @@ def test_the_command_writes_a_page_and_tells_the_verdicts(tmp_path, capsys):
         assert ended.value.code == 2
 
 
+@pytest.mark.parametrize(  # the pads on the other side of a pair push back
+    ("changes", "low", "high"), [({}, 7920.0, 8080.0), ({"play": "0.2 mm", "axial_load": "-8 kN"}, 8e3, 9e3)]
+)
+def test_a_thrust_bearing_is_drawn_and_the_pressure_of_its_pads_carries_the_load(changes, low, high):
+    tables = tomllib.loads(new_scene("thrust"))
+    tables["thrust"] |= changes
+    parts = dict(read_scene(tables, "scene").report().sections)
+    drawn, pressure = parts["Machine"][0].panels[0], parts["Equilibrium, stiffness and damping"][1].panels[0]
+    pads = [one for one in drawn.marks if one.color == "#4c72b0"]
+    area = [0.5 * abs(np.sum(p.x[1:] * p.y[:-1] - p.x[:-1] * p.y[1:])) for p in pads]
+    assert len(pads) == 8
+    np.testing.assert_allclose(area, 0.5 * np.radians(38.0) * (60.0**2 - 30.0**2), rtol=1e-4)
+    field = pressure.marks[0]
+    weights = np.gradient(np.radians(field.x)) * (1e-3 * np.gradient(field.y) * 1e-3 * field.y)[:, None]
+    assert low < 8e6 * np.sum(field.values * weights) < high
+    assert pressure.title == "Pressure on each of 8 pads"
+
+
 def test_a_scene_without_verdicts_is_summed_up_by_its_results_and_has_no_empty_section():
     tables = tomllib.loads(new_scene("thrust"))
     found = read_scene(tables, "scene").report()
