@@ -76,11 +76,11 @@ class ContactBalance:
     """
 
     def share(self, alpha: ArrayLike) -> Array:
-        """Return 1."""
+        """Return the share of the circumference that conducts heat: 1."""
         return np.ones_like(np.asarray(alpha, dtype=float))
 
     def share_slope(self, alpha: ArrayLike) -> Array:
-        """Return 0."""
+        """Return the derivative of `share` by alpha: 0."""
         return np.zeros_like(np.asarray(alpha, dtype=float))
 
 

@@ -588,7 +588,7 @@ class Cooling:
         )
 
     def capacity(self, radius: float, length: float) -> float:
-        """Return the heat capacity of bush and housing [J/K] of a bearing of these dimensions [m]."""
+        """Return the heat capacity [J/K] of bush and housing of a bearing with this radius and length [m]."""
         if self.bush_heat_capacity is not None:
             return self.bush_heat_capacity
         return STEEL * math.pi * (RING**2 - 1.0) * radius**2 * length
