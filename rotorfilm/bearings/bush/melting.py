@@ -76,11 +76,11 @@ class ContactBalance:
     """
 
     def share(self, alpha: ArrayLike) -> Array:
-        """Return the share of the circumference that conducts heat: 1."""
+        """Return the factor of Q_1 in the balance, which is 1 here."""
         return np.ones_like(np.asarray(alpha, dtype=float))
 
     def share_slope(self, alpha: ArrayLike) -> Array:
-        """Return the derivative of `share` by alpha: 0."""
+        """Return d(share)/d(alpha) [1/rad], which is 0 here."""
         return np.zeros_like(np.asarray(alpha, dtype=float))
 
 
