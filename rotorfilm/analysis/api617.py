@@ -20,8 +20,8 @@ from ..rotors import ShaftRotor, Station
 from .coefficients import film_coefficients
 from .modal_reduction import exact_structure, lu_solver
 from .rotor_equilibrium import RotorEquilibrium, rotor_equilibrium
-from .rotor_matrices import dynamics, journal_rows, motion_near, second_order, whirl_near
-from .rotor_modes import RotorModes, log_decrement, motions_about, oscillates
+from .rotor_matrices import dynamics, journal_rows, motion_near, oscillates, second_order, whirl_near
+from .rotor_modes import RotorModes, log_decrement, motions_about
 from .shaft_statics import chosen_stations, rigid_support_speed
 from .threads import one_blas_thread
 

@@ -13,13 +13,27 @@ from scipy.optimize import brentq
 
 from ..core.errors import ConvergenceError
 from ..core.model import Array
-from ..core.port import Bearings, DynamicStiffness, InertialStiffness, freedoms_of, states_rest
+from ..core.port import (
+    GROWTH_ROUNDOFF,
+    Bearings,
+    DynamicStiffness,
+    InertialStiffness,
+    freedoms_of,
+    states_rest,
+)
 from ..core.results import Coefficients, FrequencyDependentCoefficients, InertialCoefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from .modal_reduction import all_rows, models, usual_frequency
 from .rotor_equilibrium import RotorEquilibrium, rest
-from .rotor_matrices import frequency_dependent_films, second_order, whirl_near
+from .rotor_matrices import (
+    FullRotorModel,
+    frequency_dependent_films,
+    growth_roundoff,
+    holding,
+    second_order,
+    whirl_near,
+)
 
 REACH = 20.0
 """Frequency / speed up to which exponents are told apart in the phase; few faster ones feel the oil."""
@@ -70,31 +84,42 @@ def rotor_growing(structure: Structure, at: RotorEquilibrium, values: np.ndarray
     """
     films = {name: _without_mass(film) for name, film in frequency_dependent_films(at).items()}
     still = {name: one for name, (one, _) in films.items()}
-    system = second_order(structure, replace(at, coefficients={**at.coefficients, **still}))
-    rows = all_rows(structure, still)
+    near = replace(at, coefficients={**at.coefficients, **still})
+    system, rows = second_order(structure, near), all_rows(structure, still)
     mass, damping, stiffness = (np.asarray(part) for part in system)
 
     def ratio(nu: float) -> complex:
+        # Beside the axis, on which motion that nothing damps has its exponents.
+        s = 1j * nu + GROWTH_ROUNDOFF * (nu + abs(at.speed))
         change = np.zeros((len(rows), len(rows)), dtype=complex)
         first = 0
         for film, motion in films.values():
             own = slice(first, first + len(film.stiffness))
-            K = motion.stiffness(1j * nu)
-            change[own, own] = K - film.stiffness - 1j * nu * film.damping
+            change[own, own] = motion.stiffness(s) - film.stiffness - s * film.damping
             first = own.stop
-        receptance = rows @ np.linalg.solve(stiffness - nu**2 * mass + 1j * nu * damping, rows.T)
+        receptance = rows @ np.linalg.solve(stiffness + s**2 * mass + s * damping, rows.T)
         return complex(np.linalg.det(np.eye(len(rows)) + receptance @ change))
 
-    reference = np.linalg.eigvals(system.state_matrix())
-    frequencies = _frequencies(reference, values, abs(at.speed))
-    known = int(np.sum(reference.real > 0.0)) + sum(_growing_poles(motion) for _, motion in films.values())
+    reference, vectors = np.linalg.eig(system.state_matrix())
+    own = [_poles(motion) for _, motion in films.values()]
+    frequencies = _frequencies(reference, np.concatenate([values, *own]), abs(at.speed))
+    held = holding(FullRotorModel(structure, near, 0.0), reference, vectors[: len(mass)])
+    bound = np.maximum(
+        growth_roundoff(reference, held, at.speed), GROWTH_ROUNDOFF * (np.abs(reference) + abs(at.speed))
+    )
+    known = int(np.sum(reference.real > bound)) + sum(map(_growing, own))
     return growing_count(ratio, frequencies, known)
 
 
-def _growing_poles(motion: DynamicStiffness) -> int:
-    """Return how many states of a bearing grow by themselves: the phase counts them as missing."""
+def _poles(motion: DynamicStiffness) -> np.ndarray:
+    """Return the exponents of the states of a bearing by themselves, if it tells them [1/s]."""
     at = getattr(motion, "at", None)
-    return 0 if at is None or not len(at.A) else int(np.sum(np.linalg.eigvals(at.A).real > 0.0))
+    return np.zeros(0) if at is None else np.linalg.eigvals(at.A)
+
+
+def _growing(poles: np.ndarray) -> int:
+    """Return how many states of a bearing grow by themselves: the phase counts them as missing."""
+    return int(np.sum(poles.real > GROWTH_ROUNDOFF * np.abs(poles).max(initial=0.0)))
 
 
 def _without_mass(film: FrequencyDependentCoefficients) -> tuple[Coefficients, DynamicStiffness]:
@@ -140,7 +165,8 @@ def _frequencies(reference: np.ndarray, found: np.ndarray, speed: float) -> Arra
     values, upper = np.concatenate([reference, found]), reference[reference.imag >= 0.0]
     slow = values[np.abs(values) <= REACH * speed]
     near = np.concatenate([slow, _moved(found, upper), _moved(upper, found)])
-    beside = np.concatenate([near.imag + k * near.real for k in (-2.0, -0.5, 0.0, 0.5, 2.0)])
+    width = np.abs(near.real) + GROWTH_ROUNDOFF * (np.abs(near.imag) + speed)
+    beside = np.concatenate([near.imag + k * width for k in (-2.0, -0.5, 0.0, 0.5, 2.0)])
     top = 4.0 * max(float(np.abs(values).max()), speed)
     waves = speed * np.arange(1, 25) / 8.0
     return np.unique([0.0, *beside[beside > 0.0], *waves, *np.geomspace(0.01 * speed, top, 40)])
@@ -250,7 +276,7 @@ def rigid_growing(film: FrequencyDependentCoefficients, mass: float) -> int:
     low = min(own, speed) * 10.0 ** (-0.5 * _DECADES)
     waves = np.arange(1, 25) * 0.125 * speed
     frequencies = np.unique([0.0, *np.geomspace(low, top, 24), *waves[waves < top]])
-    return growing_count(ratio, frequencies, _growing_poles(film.dynamic_stiffness))
+    return growing_count(ratio, frequencies, _growing(_poles(film.dynamic_stiffness)))
 
 
 def _pencil(stiffness: np.ndarray, damping: np.ndarray, mass: float) -> NDArray[np.complex128]:

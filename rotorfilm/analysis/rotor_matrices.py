@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import sparse
 from scipy.linalg import block_diag, matrix_balance
 
@@ -116,17 +117,27 @@ LIGHT = 0.3
 GROWING = 1e-9
 """Size of a real exponent, over the largest, above which one that is positive counts as growing."""
 
+ALONE = 1e-9
+"""Relative distance from an exponent of states alone, below which the shaft does not take part in a whirl."""
 
-def joined_whirls(structure: Structure, at: RotorEquilibrium) -> tuple[np.ndarray, np.ndarray]:
+
+def joined_whirls(
+    model: Condensed, at: RotorEquilibrium, frequency: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return whirl of a rotor and the states of its films as one linear system, where these are known.
+
+    Hysteresis is that at a frequency [rad/s].
 
     Returns
     -------
     values : ndarray, shape (m,) [1/s]
-        Lightly damped ones, one of each pair, and those that grow without whirl.
+        Lightly damped ones, one of each pair, and those that grow without whirl, of motion that is held.
     shapes : ndarray, shape (N, m)
-        Shapes of the coordinates of the rotor.
+        Shapes of the coordinates of the model.
+    roundoff : ndarray, shape (m,) [1/s]
+        Roundoff of the growth rates.
     """
+    structure = model.structure
     films = {
         n: film for n, film in frequency_dependent_films(at).items() if hasattr(film.dynamic_stiffness, "at")
     }
@@ -145,7 +156,8 @@ def joined_whirls(structure: Structure, at: RotorEquilibrium) -> tuple[np.ndarra
         columns.append(rows.T @ C)
         felt.append(np.hstack([B[:, :n] @ rows, B[:, n : 2 * n] @ rows]))
         own.append(A)
-    system = second_order(structure, replace(at, coefficients={**at.coefficients, **held}))
+    still = replace(at, coefficients={**at.coefficients, **held})
+    system = small_motion(structure, still, frequency)
     size = len(system.mass)
     whole = block_diag(system.state_matrix(), *own)
     if films:
@@ -154,7 +166,20 @@ def joined_whirls(structure: Structure, at: RotorEquilibrium) -> tuple[np.ndarra
     values, vectors = np.linalg.eig(whole)
     swings = (values.imag > 0.0) & (-values.real <= LIGHT * np.abs(values))
     light = swings | ((values.imag == 0.0) & (values.real > GROWING * np.abs(values).max()))
-    return values[light].astype(complex), vectors[:size, light].astype(complex)
+    values, shapes = values[light].astype(complex), vectors[:size, light].astype(complex)
+    held_by = holding(FullRotorModel(model.whole, still, frequency), values, model.lifted(shapes))
+    alone = np.concatenate([np.zeros(0), *map(np.linalg.eigvals, own)])
+    apart = np.abs(values[:, None] - alone).min(axis=1, initial=np.inf) > ALONE * np.abs(values)
+    moves = (held_by > HELD) & (apart | (values.real > ALONE * np.abs(values)))
+    return values[moves], shapes[:, moves], growth_roundoff(values, held_by, at.speed)[moves]
+
+
+_OSCILLATES = 1e-6
+
+
+def oscillates(values: np.ndarray) -> NDArray[np.bool_]:
+    """Return which eigenvalues are those of whirl."""
+    return np.asarray(values.imag > _OSCILLATES * np.abs(values))
 
 
 def rest_near(at: RotorEquilibrium, s: complex) -> RotorEquilibrium:
@@ -445,6 +470,28 @@ def seen_rows(structure: Structure) -> Array:
     probes = [row[None, :n] for signal, row in structure.readouts if signal.unit == "m"]
     housings = [] if structure.housings is None else [structure.housings]
     return np.concatenate([structure.journals, *housings, *probes])
+
+
+HELD, ROUNDED_SHARE = 1e-12, 1e-11
+"""Force that holds a shape / the forces that cancel in it, below which nothing holds it; that share times a
+growth rate / frequency, below which the rate is what roundoff leaves of these forces."""
+
+
+def holding(whole: FullRotorModel, values: np.ndarray, shapes: np.ndarray) -> Array:
+    """Return what holds motions (N, m), over the stiffness forces that cancel in them [1]; 1 without such."""
+    size = np.abs(values)
+    inertia = np.linalg.norm(whole.shaft.mass @ shapes, axis=0)
+    damping = np.linalg.norm(whole.slope(0.0, shapes), axis=0)
+    held = np.linalg.norm(whole.held(np.abs(shapes)), axis=0)
+    holds = size * (size * inertia + damping)
+    return np.asarray(np.divide(holds, held, out=np.sign(holds), where=held > 0.0))
+
+
+def growth_roundoff(values: np.ndarray, held: Array, speed: float) -> Array:
+    """Return what roundoff leaves of growth rates (m,) [1/s], by what holds the motions as `holding` says."""
+    turning = np.where(oscillates(values), 0.0, abs(speed))
+    with np.errstate(divide="ignore"):
+        return np.asarray(ROUNDED_SHARE * (np.abs(values) + turning) / np.minimum(held, 1.0))
 
 
 def roundoff(matrix: np.ndarray, left: np.ndarray, right: np.ndarray) -> Array:

@@ -42,9 +42,13 @@ from .modal_reduction import (
 )
 from .rotor_equilibrium import RotorEquilibrium, rest
 from .rotor_matrices import (
+    HELD,
     FullRotorModel,
     frequency_dependent_films,
+    growth_roundoff,
+    holding,
     joined_whirls,
+    oscillates,
     rest_near,
     roundoff,
     small_motion,
@@ -52,14 +56,8 @@ from .rotor_matrices import (
 )
 from .threads import one_blas_thread
 
-_OSCILLATES = 1e-6
-
 _ASIDE = 1e-12
 """Energy in the planes / that of axial and torsional motion, below which it is roundoff."""
-
-_HELD = 1e-12
-"""Stiffness force / the forces that cancel in it, below which nothing holds a shape."""
-
 
 GROWN = 1e-4
 """Growth rate / frequency that is growth whatever the roundoff, whose bound is wide for light elements."""
@@ -94,9 +92,11 @@ class Whirls:
 
     @property
     def grows(self) -> NDArray[np.bool_]:
-        """Whether a whirl grows by more than the roundoff of its eigenvalue, or 1e-4 of its frequency."""
+        """Whether motion grows by more than the roundoff of its eigenvalue, or a whirl by 1e-4 / radian."""
         bound = np.minimum(self.roundoff, GROWN * np.abs(self.eigenvalues))
-        return np.asarray(self.eigenvalues.real > bound)
+        return np.asarray(
+            self.eigenvalues.real > np.where(oscillates(self.eigenvalues), bound, self.roundoff)
+        )
 
 
 CIRCULAR = 0.1
@@ -349,14 +349,16 @@ def _part(model: Condensed, at: RotorEquilibrium, band: Band, known_to: float, r
     tally("eigenproblems")
     matrix = system.state_matrix()
     values, left, vectors = eig(matrix, left=True)
-    rounded = roundoff(matrix, left, vectors)
     shapes = vectors[: len(system.mass)]
     whole, lifted = FullRotorModel(model.whole, at, frequency), model.lifted(shapes)
-    chosen = _is_held(whole, values, lifted) & (values.imag >= low) & (values.imag < high)
+    held = holding(whole, values, lifted)
+    rounded = np.minimum(roundoff(matrix, left, vectors), growth_roundoff(values, held, at.speed))
+    follows = bool(frequency_dependent_films(at))  # where K(s) takes a motion tells of which band it is
+    chosen = (held > HELD) & (values.imag >= 0.0 if follows else (values.imag >= low) & (values.imag < high))
     order = np.flatnonzero(chosen)[np.argsort(values.imag[chosen])]
-    if frequency_dependent_films(at):
+    if follows:
         return _frequency_dependent_part(
-            model, at, frequency, (known_to, reach), (values[order], shapes[:, order], rounded[order])
+            model, at, band, (known_to, reach), (values[order], shapes[:, order], rounded[order])
         )
     asked = [k for k in order if oscillates(values[k]) and abs(values[k]) <= known_to]
     error = 0.0
@@ -374,11 +376,11 @@ are not followed to K(s): where they end is beyond it too."""
 def _frequency_dependent_part(
     model: Condensed,
     at: RotorEquilibrium,
-    frequency: float,
+    band: Band,
     bounds: tuple[float, float],
     next_to: tuple[np.ndarray, np.ndarray, np.ndarray],
 ) -> Part:
-    """Return the motions on frequency-dependent films next to those with K and C of one frequency.
+    """Return the motions on frequency-dependent films in a band, next to those with K and C of one frequency.
 
     The bounds are the frequencies up to which their error is asked for, and up to which they are.
 
@@ -386,16 +388,15 @@ def _frequency_dependent_part(
     reactions, is next to none of these, but known where the states are.
     """
     found: list[tuple[complex, np.ndarray, float]] = []
-    (known_to, reach), error, (starts, shapes, rounded) = bounds, 0.0, next_to
+    (known_to, reach), error, (starts, shapes, rounded), (frequency, low, high) = bounds, 0.0, next_to, band
     told = [hasattr(film.dynamic_stiffness, "at") for film in frequency_dependent_films(at).values()]
     known = all(told)
     # Without states that are known the joined system is that of the starts.
-    own, ways = joined_whirls(model.structure, at) if any(told) else (starts[:0], shapes[:, :0])
-    joined = known and model.structure.hysteresis is None
-    partner = _continued((starts, shapes), (own, ways), model.structure.mass) if joined else {}
+    own, ways, roundings = (
+        joined_whirls(model, at, frequency) if any(told) else (starts[:0], shapes[:, :0], rounded[:0])
+    )
+    partner = _continued((starts, shapes), (own, ways), model.structure.mass) if known else {}
     alone = [k for k in range(len(starts)) if k not in partner]
-    roundings = np.zeros(len(own))
-    roundings[list(partner.values())] = rounded[list(partner)]
     begun, ways_of_all = np.concatenate([starts[alone], own]), np.hstack([shapes[:, alone], ways])
     given = zip(begun, ways_of_all.T, [*rounded[alone], *roundings], strict=True)
     for k, (start, shape, rounding) in enumerate(given):
@@ -404,10 +405,11 @@ def _frequency_dependent_part(
         try:
             one = frequency_dependent_motion(model.structure, at, frequency, complex(start), shape)
         except ConvergenceError:
-            if known and k < len(alone):  # those that matter are among the eigenvalues with all states
+            # Those that matter are among the eigenvalues with all states, in the band of their hysteresis.
+            if (known and k < len(alone)) or not low <= start.imag < high:
                 continue
             raise
-        if one is None or _is_among(one[0], one[1], found):
+        if one is None or not low <= one[0].imag < high or _is_among(one[0], one[1], found):
             continue
         s, *vectors = one
         found.append((s, vectors[0], float(rounding)))
@@ -448,22 +450,6 @@ def _is_among(value: complex, shape: np.ndarray, found: list[tuple[complex, np.n
     known, _ = np.linalg.qr(np.array(equal).T)
     left = shape - known @ (known.conj().T @ shape)
     return bool(np.linalg.norm(left) < _NEW_SHAPE * np.linalg.norm(shape))
-
-
-def _is_held(
-    whole: FullRotorModel, values: NDArray[np.complex128], shapes: NDArray[np.complex128]
-) -> NDArray[np.bool_]:
-    """Return which motions something holds."""
-    size = np.abs(values)
-    inertia = np.linalg.norm(whole.shaft.mass @ shapes, axis=0)
-    damping = np.linalg.norm(whole.slope(0.0, shapes), axis=0)
-    held = np.linalg.norm(whole.held(np.abs(shapes)), axis=0)
-    return np.asarray(size * (size * inertia + damping) > _HELD * held)
-
-
-def oscillates(values: NDArray[np.complex128]) -> NDArray[np.bool_]:
-    """Return which eigenvalues are those of whirl."""
-    return np.asarray(values.imag > _OSCILLATES * np.abs(values))
 
 
 def speeds_in_turn(speeds: ArrayLike) -> Array:

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 from ..core.errors import ConvergenceError, EquilibriumError
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.port import Bearings
+from ..core.port import GROWTH_ROUNDOFF, Bearings
 from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..rotors import FlexibleRotor
@@ -29,12 +29,9 @@ from .modal_reduction import (
     whirling,
 )
 from .rotor_equilibrium import rest
-from .rotor_matrices import value_error, whirl_near
-from .rotor_modes import RotorModes, bands_of, directions, motions_at, oscillates, speeds_in_turn
+from .rotor_matrices import oscillates, value_error, whirl_near
+from .rotor_modes import RotorModes, bands_of, directions, motions_at, speeds_in_turn
 from .threads import one_blas_thread
-
-NEUTRAL = 1e-9
-"""Growth rate / frequency that is roundoff."""
 
 FURTHER = 1e-6
 """Part of a step by which a motion is seen to grow beyond its threshold."""
@@ -203,7 +200,7 @@ def first_growing(rotor: FlexibleRotor, bearings: Bearings, speeds: Array) -> tu
     def growing(speed: float) -> NDArray[np.complex128]:
         motions = motions_at(rotor, bearings, speed)
         values = motions.eigenvalues
-        return values[motions.grows & (values.real > NEUTRAL * (np.abs(values) + speed))]
+        return values[motions.grows & (values.real > GROWTH_ROUNDOFF * (np.abs(values) + speed))]
 
     found = growing(float(speeds[-1]))
     if not found.size:
@@ -226,7 +223,7 @@ class _Growth(NamedTuple):
     @property
     def growing(self) -> int:
         """Number of eigenvalues that grow."""
-        return int(np.sum(self.rates > NEUTRAL))
+        return int(np.sum(self.rates > GROWTH_ROUNDOFF))
 
     def rate(self, k: int) -> float:
         """Return growth number k from the largest."""
@@ -244,7 +241,7 @@ class _Stability(NamedTuple):
         motions = motions_at(self.rotor, self.bearings, speed)
         values, whirls = motions.eigenvalues, oscillates(motions.eigenvalues)
         size = np.abs(values) + np.where(whirls, 0.0, abs(motions.speed))
-        rates = values.real / size
+        rates = np.where(motions.grows, values.real, np.minimum(values.real, 0.0)) / size
         places = np.repeat(np.argsort(-rates), np.where(whirls, 2, 1)[np.argsort(-rates)])
         return _Growth(rates[places], places, motions)
 
@@ -291,7 +288,7 @@ class _Stability(NamedTuple):
         """
         seen = {one.motions.speed: one for one in (low, high)}
         root = self._root(k, seen, NEARLY)
-        near = min((w for w in seen if seen[w].rate(k) > NEUTRAL), key=lambda w: abs(w - root))
+        near = min((w for w in seen if seen[w].rate(k) > GROWTH_ROUNDOFF), key=lambda w: abs(w - root))
         found = self._followed(k, seen[near], root) or self._on_line(k, seen)
         speed, value, shape, slope = found
         size = _size(value, speed)
@@ -310,7 +307,7 @@ class _Stability(NamedTuple):
         def excess(speed: float) -> float:
             if speed not in seen:
                 seen[speed] = self.growth(speed)
-            return seen[speed].rate(k) - NEUTRAL
+            return seen[speed].rate(k) - GROWTH_ROUNDOFF
 
         low, high = list(seen)[:2]
         return float(brentq(excess, low, high, rtol=rtol))
@@ -339,7 +336,8 @@ class _Stability(NamedTuple):
                 continue
             (last, before), (now, rate) = points[-2:]
             slope = (rate - before) / (now - last)
-            if not abs(slope) * abs(root) > NEUTRAL or abs(now - rate / slope - root) > _AWAY * abs(root):
+            moved = abs(now - rate / slope - root)
+            if not abs(slope) * abs(root) > GROWTH_ROUNDOFF or moved > _AWAY * abs(root):
                 return None
             speed = now - rate / slope
             if abs(speed - now) <= _SETTLED * abs(speed):
@@ -350,9 +348,9 @@ class _Stability(NamedTuple):
         """Return where the line through two growing speeds next to the root is 0."""
         root, grown = self._root(k, seen, 1e-13), max(list(seen.values())[:2], key=lambda one: one.growing)
         further = self.growth(root + FURTHER * (grown.motions.speed - root))
-        rise, speed = further.rate(k) - NEUTRAL, further.motions.speed
+        rise, speed = further.rate(k) - GROWTH_ROUNDOFF, further.motions.speed
         slope = abs(rise / (speed - root))
-        onset = root - NEUTRAL / rise * (speed - root) if rise > 0.0 else root
+        onset = root - GROWTH_ROUNDOFF / rise * (speed - root) if rise > 0.0 else root
         place = further.places[k]
         return onset, complex(further.motions.eigenvalues[place]), further.motions.shapes[:, place], slope
 

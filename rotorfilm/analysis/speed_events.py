@@ -11,7 +11,7 @@ import numpy as np
 
 from ..core.errors import AbsentError, ConvergenceError
 from ..core.model import Array
-from ..core.port import Bearings, freedoms_of
+from ..core.port import GROWTH_ROUNDOFF, Bearings, freedoms_of
 from ..core.results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, freedom_rows
@@ -29,7 +29,7 @@ from .rotor_matrices import (
     whirl_near,
 )
 from .rotor_modes import RotorModes, critical_speeds, rotor_modes
-from .rotor_thresholds import NEUTRAL, rotor_threshold
+from .rotor_thresholds import rotor_threshold
 
 NEAR = 1.1
 """Critical speeds up to so many times the first are followed with it."""
@@ -106,7 +106,7 @@ def _threshold(rotor: FlexibleRotor, bearings: Bearings, speeds: Array) -> list[
     found = rotor_threshold(rotor, bearings, speeds)
     if found.speed is None or found.whirl_frequency is None:
         values = rotor_modes(rotor, bearings, float(speeds[0])).eigenvalues
-        neutral = values.size and np.all(np.abs(values.real) < NEUTRAL * np.abs(values))
+        neutral = values.size and np.all(np.abs(values.real) < GROWTH_ROUNDOFF * np.abs(values))
         reason = "nothing damps or drives a whirl" if neutral else found.reason
         raise AbsentError(f"no whirl threshold in shaft.speeds, {span}: {reason}")
     if not found.whirl_frequency:

@@ -27,6 +27,7 @@ from ..core.errors import (
 from ..core.inputs import arguments
 from ..core.model import Array
 from ..core.port import (
+    GROWTH_ROUNDOFF,
     InertialStiffness,
     Reaction,
     at_balanced_temperature,
@@ -56,6 +57,8 @@ from .threads import one_blas_thread
 
 _POINTS_PER_DECADE = 12
 _SPEED_FACTOR = 100.0
+_FURTHER = 1e-6
+"""Part of a step by which motion is seen to grow beyond its threshold."""
 
 NO_MASS: Mapping[str, Any] = dict.fromkeys(("mass", "whirl_frequency", "whirl_ratio"))
 NO_THRESHOLD: Mapping[str, Any] = dict.fromkeys(
@@ -225,7 +228,8 @@ def _settling(
 
     def growth(speed: float) -> float:
         with _passing(passed):
-            return least_damped(equilibrium(reaction, load, speed)).real
+            s = least_damped(equilibrium(reaction, load, speed))
+        return s.real / (abs(s) + speed)
 
     onset, stable = _first_onset(growth, speeds[first:])
     if onset is None:
@@ -239,13 +243,25 @@ def _settling(
 
 
 def _first_onset(growth: Callable[[float], float], speeds: Array) -> tuple[float | None, list[bool]]:
-    """Return the lowest speed at which growth turns positive, None without, and where it is stable."""
+    """Return the lowest speed at which growth / frequency turns positive, None without; where it does not."""
     stable: list[bool] = []
+    rate = 0.0
     for k, speed in enumerate(speeds.tolist()):
-        stable.append(growth(speed) < 0.0)
+        last, rate = rate, growth(speed)
+        stable.append(rate <= GROWTH_ROUNDOFF)
         if stable[-2:] == [True, False]:
             low, high = np.log(speeds[k - 1 : k + 1]).tolist()
-            return math.exp(_root(lambda log: growth(math.exp(log)), low, high, xtol=1e-14)), stable
+            # Of motion that nothing damped before, only what exceeds roundoff tells where it grows.
+            least = GROWTH_ROUNDOFF if last > -GROWTH_ROUNDOFF else 0.0
+
+            def excess(log_speed: float, least: float = least) -> float:
+                return growth(math.exp(log_speed)) - least
+
+            root = _root(excess, low, high, xtol=1e-14)
+            if least:  # the line through two speeds at which it grows
+                further = _FURTHER * (high - root)
+                root = max(low, root - further * least / max(excess(root + further), least))
+            return math.exp(root), stable
     return None, stable
 
 

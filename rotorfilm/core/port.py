@@ -862,6 +862,10 @@ def small_motion(reaction: Any, position: ArrayLike, speed: float) -> DynamicSti
     return StatesStiffness(rest_linearization(reaction, position, speed))
 
 
+GROWTH_ROUNDOFF = 1e-9
+"""Growth rate / frequency that is roundoff."""
+
+
 def rigid_exponents(reaction: Any, position: ArrayLike, speed: float, mass: float) -> Complex:
     """Return the exponents of a rigid mass [kg] on a reaction about a rest [1/s], the least damped first.
 
