@@ -187,7 +187,7 @@ def synchronous_orbits(
     )
     if wanted.ndim != 1 or not wanted.size or np.any(wanted <= 0.0):
         given = wanted if unbalances is None else unbalances
-        raise InputError(f"unbalances must be positive and not empty, got {given!r}")
+        raise InputError(f"unbalances must be positive and not empty, got {brief(given)}")
     system = orbit_rotor(rotor, reaction)
     nodes = _radii(system.largest_ratio)
     folds = _folds(system, nodes)

@@ -51,6 +51,7 @@ from .compiled_rotor import (
     state_matrices,
     take_apart,
     warn_beyond,
+    warn_of_thin_films,
 )
 from .threads import one_blas_thread
 
@@ -129,7 +130,7 @@ def simulate_rotor(
     Warns
     -----
     ValidityWarning
-        If a journal goes beyond the map of its film.
+        If a journal goes beyond the map of its film, or a film gets thinner than surfaces are rough.
     """
     require_duration(mounted.bare, duration)
     require_positive("rtol", rtol)
@@ -164,6 +165,7 @@ def _verified(
     picked = replace(_at(run, grid), work=dict(work))
     if failure is not None:
         raise type(failure)(str(failure), picked) from failure
+    warn_of_thin_films(mounted.all_bearings, picked)
     return picked
 
 

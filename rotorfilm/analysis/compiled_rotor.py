@@ -12,7 +12,7 @@ a rotor that is free to move would have no complete set of modes. Of each conjug
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from ctypes import CFUNCTYPE, POINTER, byref, c_double, c_int, c_void_p, cast
 from typing import Any, NamedTuple
 
@@ -28,9 +28,11 @@ from ..core.errors import (
 )
 from ..core.model import Array, Dynamic
 from ..core.port import (
+    clearance_of,
     compiled_force,
     freedoms_of,
     inertial,
+    minimum_film,
     require_massless,
     require_reaction,
     static_force,
@@ -81,6 +83,26 @@ def warn_beyond(calls: Iterable[FilmCall]) -> None:
     """Warn that a journal went beyond the map of its film."""
     how = " or ".join(dict.fromkeys(call.beyond for call in calls if call.beyond))
     warn_user(f"a journal went beyond the map of its film; its force is {how}")
+
+
+THINNEST = 1e-7
+"""Least film [m] that separates the finest bearing surfaces, of a roughness of about 0.05 um each."""
+
+
+def warn_of_thin_films(films: Mapping[str, Any], run: Trajectory) -> None:
+    """Warn where a run has a film, by its station, that is thinner than surfaces are rough."""
+    for station, film in films.items():
+        place = [run.signals.get(station_name(station, name)) for name in freedoms_of(film)]
+        if any(row is None or not row.size for row in place) or not clearance_of(film) < math.inf:
+            continue
+        least = minimum_film(film, np.array(place))
+        if least[at := int(np.argmin(least))] < THINNEST:
+            warn_user(
+                f"the least film{f' of {station!r}' if station else ''} should be at least {THINNEST:g} m, "
+                "as thick as the finest surfaces are rough, got "
+                f"{least[at]:.3g} m at t = {run.time[at]:.6g} s: "
+                "real surfaces touch there, and the force of this smooth film is no prediction"
+            )
 
 
 def film_call(reaction: Any, *, tilts: bool = False) -> FilmCall:

@@ -62,8 +62,10 @@ def simulate_many(
         raise InputError(f"runs must be mappings of the arguments of simulate, got {brief(runs)}")
 
     def result(run: Mapping[str, Any]) -> Any:
-        if not isinstance(run, Mapping):
+        if not isinstance(run, Mapping) or not all(isinstance(name, str) for name in run):
             raise InputError(f"runs must be mappings of the arguments of simulate, got {brief(run)}")
+        if missing := [name for name in ("rotor", "reaction", "duration") if name not in run]:
+            raise InputError(f"runs must have {' and '.join(missing)} each, got {brief(list(run))}")
         try:
             found = simulate(**run)
         except (ContactError, ConvergenceError) as failure:

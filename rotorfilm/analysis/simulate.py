@@ -48,7 +48,7 @@ from ..rotors import ForcedRotor, MountedRotor, ShaftRotor, mount
 from ..rotors.mounted import Mount, wired
 from ..rotors.structure import prefixed, station_names
 from .compiled_march import require_duration, require_longest_step, sample_times, simulate_rotor
-from .compiled_rotor import CONTACT_GAP, compiled_form, takes_forces
+from .compiled_rotor import CONTACT_GAP, compiled_form, takes_forces, warn_of_thin_films
 from .rotor_equilibrium import rotor_equilibrium
 from .stepped_run import simulate_steps
 from .threads import one_blas_thread
@@ -118,6 +118,11 @@ def simulate(
         If the journal reaches the wall; carries the trajectory until then.
     ConvergenceError
         If the integrator gives up or the film force is not finite; carries the trajectory until then.
+
+    Warns
+    -----
+    ValidityWarning
+        If a film gets thinner than 0.1 um, where real surfaces touch, or a journal goes beyond its map.
     """
     require_duration(rotor, duration)
     require_positive("rtol", rtol)
@@ -127,7 +132,9 @@ def simulate(
     if any(map(takes_steps, given.values())):
         if method is not None:
             raise InputError(f"method must be None for films that step, got {method!r}")
-        return simulate_steps(rotor, given, grid, duration, initial_state, max_step)
+        run = simulate_steps(rotor, given, grid, duration, initial_state, max_step)
+        warn_of_thin_films(given, run)
+        return run
     by_station = given is reaction
     films: dict[str, Any] = {name: in_time(film) for name, film in given.items()}
     in_c = partial(simulate_rotor, duration=duration, times=grid, rtol=rtol, max_step=max_step)
@@ -138,9 +145,9 @@ def simulate(
         require_turning(film, rotor)
     state = _initial(system, system.initial_state if initial_state is None else initial_state)
     if not by_station and method is None:
-        run = _compiled(rotor, films[""], partial(in_c, initial_state=state))
-        if run is not None:
-            return run
+        compiled = _compiled(rotor, films[""], partial(in_c, initial_state=state))
+        if compiled is not None:
+            return compiled
     settings = Integration(method=method or Radau, rtol=rtol, max_step=max_step)
     kept: list[tuple[float, Array]] = [(0.0, state)] if grid.size and grid[0] == 0.0 else []
     try:
@@ -154,6 +161,7 @@ def simulate(
     whole = _trajectory(system, kept)
     for film in films.values():
         require_turned(film, rotor, whole.signals)
+    warn_of_thin_films(films, whole)
     return whole
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -34,18 +35,29 @@ def complain(kind: str, message: object) -> None:
 
 def print_json(value: Any) -> None:
     """Print a result as JSON, alone on stdout."""
+    sys.stdout.write(json_text(value))
+
+
+def json_text(value: Any) -> str:
+    """Return a result as JSON, in which an infinite number, as an error without a bound, is null."""
     from ..core.results import to_plain
 
-    sys.stdout.write(json.dumps(to_plain(value), indent=2, allow_nan=False) + "\n")
+    return json.dumps(_bounded(to_plain(value)), indent=2, allow_nan=False) + "\n"
+
+
+def _bounded(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _bounded(entry) for key, entry in value.items()}
+    if isinstance(value, list):
+        return [_bounded(entry) for entry in value]
+    return None if isinstance(value, float) and math.isinf(value) else value
 
 
 def write_json(path: Path, value: Any) -> Path:
     """Write a result as JSON; return where it is."""
     from ..core.files import write_atomically
-    from ..core.results import to_plain
 
-    text = json.dumps(to_plain(value), indent=2, allow_nan=False)
-    return write_atomically(path, f"{text}\n".encode())
+    return write_atomically(path, json_text(value).encode())
 
 
 def plain_table(title: str = "", **options: Any) -> Table:

@@ -29,6 +29,7 @@ from .errors import (
     UnknownArgumentError,
     brief,
     lacking,
+    said_once,
     shortened,
     warn_user,
 )
@@ -114,6 +115,7 @@ def in_si(function: Callable[P, R], documented: Any = None) -> Callable[P, R]:
     names = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
     doubled = {name.replace("radius", "diameter"): name for name in names if "radius" in name}
     bare = 0 if documented is None else 1
+    call = said_once()(function) if documented is None else function
 
     @wraps(function)
     def taking(*args: Any, **given: Any) -> R:
@@ -130,7 +132,7 @@ def in_si(function: Callable[P, R], documented: Any = None) -> Callable[P, R]:
         if documented is None:
             require_sizes(chain(given.items(), zip(names, args, strict=False)))
         try:
-            found = function(*args, **given)
+            found = call(*args, **given)
         except (RotorfilmError, OSError, Warning, MemoryError) as error:
             if isinstance(error, InputError) and documented is not None:
                 require_named(error, plain_checks_of(home), given.items())

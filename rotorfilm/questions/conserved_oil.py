@@ -13,6 +13,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from ..analysis import equilibrium
 from ..analysis.coefficients import film_coefficients
 from ..bearings.journal import RUPTURE_CELLS, JFOFilm, JournalBearing, both_films, extrapolated_value
@@ -70,8 +72,11 @@ class FilmEquilibrium(JournalEquilibrium):
 
     @property
     def temperature(self) -> Any:
-        """Of the film [K]; None of one that does not warm."""
-        return self.at.temperature
+        """Of the film [K], that of its balance; of a film held at one temperature, the balance there."""
+        at = self.at
+        if at.temperature is not None:
+            return at.temperature
+        return self.reaction.balanced_temperature(at.position, np.zeros(2), at.speed)
 
     maximum_temperature = temperature
 

@@ -190,7 +190,7 @@ def _named(bearing: journal.JournalBearing, tabulated: bool) -> list[FilmRung]:
     film, mapped = bearing.fitted_film, isinstance(bearing.fitted_film, journal.MapFilm)
     fine = mapped or (isinstance(film, journal.ReynoldsFilm) and film.cells[0] > 96)
     rich = _rich(tabulated and not mapped, FINEST if fine else FINE)
-    rung = _rung(journal.film_name(film), bearing, film, rich, (0.0, 0.0), bounded=mapped)
+    rung = _rung(journal.film_name(film), bearing, bearing.film, rich, (0.0, 0.0), bounded=mapped)
     rung = replace(rung, making=_making_time(rung.reaction))
     if not (rung.makes_map and film == journal.GroovedMapFilm(geometry=bearing.geometry)):
         return [rung]

@@ -147,8 +147,8 @@ class ConservingTable:
         """Raise InputError if the film conserves its oil: it has no force in any motion, as that takes."""
         if self.conserves:
             raise InputError(
-                f"film must be a quasi-static film law such as map or reynolds for {what}, got a "
-                "mass-conserving (JFO) film"
+                f"film must be a quasi-static film law for {what}, as it is without "
+                f"{' and '.join(self._supply_keys or ['film'])}, got a mass-conserving (JFO) film"
             )
 
     def conserved(self, bearing: Any, cells: tuple[int, int] | None = None) -> JFOFilm:
@@ -352,6 +352,7 @@ def journal_numbers(
         power [W] : loss in the film, at rest and at the viscosity of the bearing; not-a-number, as side_flow,
         warming and thinning are, where the coarse film has no answer; `unknown` is 1 then, else 0.
         side_flow [m3/s] : oil that leaves at both ends.
+        least_film [m] : at rest, with the axes of journal and bearing parallel.
         warming [K] : rise of temperature, of the oil that leaves (Peclet number above 1) or between cold
         walls; thinning : relative loss of viscosity by that.
         pressure : mean pressure of the load over the ambient one: how much the rupture pressure matters.
@@ -380,6 +381,7 @@ def journal_numbers(
         **numbers,
         "power": power,
         "side_flow": flow,
+        "least_film": c * (1.0 - eccentricity_ratio),
         "warming": warming,
         "unknown": float(math.isnan(warming)),
         # A bearing that is given its oil is answered as warm as it gets.

@@ -79,6 +79,10 @@ def answer_damper(scene: Scene, report: Report = silent) -> DamperAnswer:
     added = excitation.unbalance if isinstance(excitation, UnbalanceTable) else 0.0
     damper, stiffness, speed = scene.damper.build(), scene.damper.stiffness, scene.speed
     unbalance = rotor.unbalance or added
+    if not unbalance:
+        raise InputError(
+            "rigid_rotor.unbalance must be positive for orbits in a damper, got 0.0: nothing moves"
+        )
     support: Reaction = with_springs(damper, stiffness) if stiffness else damper
     alone = RigidRotor(mass=rotor.mass, speed=speed, unbalance=unbalance, gravity=(0.0, 0.0))
     response = analysis.synchronous_orbits(alone, support, unbalance * np.linspace(0.005, 2.0, 400))

@@ -403,7 +403,10 @@ def report_search(status: int) -> None:
     if status == Status.NO_MEMORY:
         raise MemoryError("no memory for a film")
     if status:
-        raise ConvergenceError("the search for a film that conserves its oil must end: is there any supply?")
+        raise ConvergenceError(
+            "the search for a film that conserves its oil must end: "
+            "there may be no supply, or too thin a film for the cells"
+        )
 
 
 # The film that conserves its oil where it ruptures (Jakobsson, Floberg and Olsson), dimensionless.

@@ -365,6 +365,17 @@ def turbulent_map(mobility: Mobility) -> FilmLaw:
     return MobileMapFilm(mobility=mobility, nodes=(24, 48, 32))
 
 
+_OPENED = {
+    "grooves": "axial grooves",
+    "pockets": "openings that end within the bearing",
+    "circumferential": "a circumferential groove",
+    "pads": "pads",
+    "recesses": "recesses",
+    "supply": "a supply pressure",
+}
+"""What a geometry that is not plain has, by the names of its fields."""
+
+
 def fitted_film(film: FilmLaw, geometry: FilmGeometry) -> FilmLaw:
     """Return a film law in a bearing of this geometry; a `MapFilm` with openings is a `GroovedMapFilm`.
 
@@ -385,9 +396,10 @@ def fitted_film(film: FilmLaw, geometry: FilmGeometry) -> FilmLaw:
         film = GroovedMapFilm()
     fitted = options(film, FilmOptions).fitted(geometry)
     if fitted is None and not geometry.plain:
+        held = [said for name, said in _OPENED.items() if getattr(geometry, name)]
         raise InputError(
             f"film must represent the bearing's geometry, which {type(film).__name__} cannot: "
-            f"got {geometry!r}; ReynoldsFilm and, without supply, MapFilm can"
+            f"got {', '.join(held)}; ReynoldsFilm and, without supply, MapFilm can"
         )
     return film if fitted is None else fitted
 

@@ -138,7 +138,7 @@ def film_state(
     omega = require_finite("speed", speed)
     if omega.ndim != 0:
         raise InputError(f"speed must be a single number, got shape {omega.shape}")
-    losses, film = bearing.losses(q, v, omega, full_gap=full_gap), bearing.fitted_film
+    losses, film = bearing.losses(q, v, omega, full_gap=full_gap), bearing.film_at_speed
     if losses is None and not isinstance(film, SplittingFilm):
         raise InputError(f"film must be a law with losses, as MapFilm or ReynoldsFilm, got {bearing.film!r}")
     state = FilmState(

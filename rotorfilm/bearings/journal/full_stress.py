@@ -135,8 +135,8 @@ def _factors(film: FullStressFilm, e: Array, speed: float, pressure: Array) -> t
     before = np.roll(by_angle, 1, axis=0)
     at_lines = 0.5 * (by_angle + before)
     across = 0.5 * (at_lines + np.pad(at_lines, ((0, 0), (0, 1)))[:, 1:])
-    H, ends = np.broadcast_to(cells.at_faces(e, cells.face), by_angle.shape), cells.at_ends(e, 1)
-    ends = np.broadcast_to(ends, by_angle.shape)
+    places = cells.at_faces(e, cells.face)[:, : by_angle.shape[1]], cells.at_ends(e, 1)
+    H, ends = (np.broadcast_to(thickness, by_angle.shape) for thickness in places)
     around = _secant(film, speed, H, H**2 * by_angle, H**2 * beside)[0]
     return around, _secant(film, speed, ends, ends**2 * across, ends**2 * by_length)[1]
 

@@ -457,7 +457,8 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
             warn_user(
                 "a tilt should at most take 60 % of the aligned least film and drive it 1.5 times as much as "
                 f"the displacement, within the maps of the film, got {at}: force and moment may be wrong by "
-                "their own size. TiltLevel.FULL has no such limit"
+                "their own size. TiltLevel.FULL has no such limit",
+                key=("second-order tilt",),
             )
             return
         planar = state[:2], state[4:6], float(state[8])

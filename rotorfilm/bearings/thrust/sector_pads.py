@@ -533,11 +533,21 @@ class SectorPads(WarmBearing):
             raise EquilibriumError(
                 f"load must push the collar onto the pads, along {-self.side:+d} z, {said}"
             )
-        low, high = math.log(_THIN), math.log(_THICK)
-        if not excess(low) > 0.0 > excess(high):
+
+        def from_end(end: float, inward: float) -> tuple[float, float]:
+            """Return the first film on which the pads rest, which those of much crown do not on all."""
+            try:
+                return end, excess(end)
+            except EquilibriumError:
+                if not math.log(_THIN) <= end + inward <= math.log(_THICK):
+                    raise
+                return from_end(end + inward, inward)
+
+        (low, thin), (high, thick) = from_end(math.log(_THIN), 1.0), from_end(math.log(_THICK), -1.0)
+        if not thin > 0.0 > thick:
+            least, most = (self.film_scale * math.exp(end) for end in (low, high))
             raise EquilibriumError(
-                f"load must be carried by a film of {_THIN * self.film_scale:.3g} to "
-                f"{_THICK * self.film_scale:.3g} m, {said}; {SENSE}"
+                f"load must be carried by a film of {least:.3g} to {most:.3g} m, {said}; {SENSE}"
             )
         film = self.film_scale * math.exp(brentq(excess, low, high, rtol=1e-9))
         place = np.array([self.side * (film - self.gap), 0.0, 0.0])

@@ -73,7 +73,7 @@ static int judged(int status, double t, const double *motion, rf_message *why)
         return rf_say(why, status, "no memory for a film");
     return rf_say(why, status,
                   "the search for a film that conserves its oil must end, and did not at t = %.9g s, x = %.9g, y = %.9g m: "
-                  "is there any supply?",
+                  "there may be no supply, or too thin a film for the cells",
                   t, motion[0], motion[1]);
 }
 

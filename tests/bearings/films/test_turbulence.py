@@ -274,6 +274,14 @@ def test_fields_of_temperature_and_the_full_stress_have_the_density_of_the_effec
     assert_allclose(full_stress_forces(at_supply, PLACE, SPEED)[0], known, rtol=0.01)
 
 
+@pytest.mark.parametrize("name", ["plain", "lobed", "dam"])
+def test_the_full_stress_of_every_bearing_begins_with_the_film_of_the_quadrature(name):
+    bearing = bearings(Turbulence(closure="reichardt"))[name]
+    linear, full = full_stress_forces(bearing, PLACE, SPEED)
+    assert_allclose(linear, bearing.force(PLACE, np.zeros(2), SPEED), atol=0.02 * np.hypot(*linear))
+    assert 1e-4 < np.hypot(*(full - linear)) / np.hypot(*linear) < 0.1
+
+
 def test_the_full_stress_needs_a_speed():
     bearing = rf.JournalBearing(**SIZE, **GIVEN, turbulence=Turbulence())
     with pytest.raises(InputError, match="speed must not be 0 for a turbulent film"):

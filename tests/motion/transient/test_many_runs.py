@@ -55,5 +55,9 @@ def test_a_run_that_fails_gives_its_error_and_the_others_go_on():
     np.testing.assert_array_equal(found[0]["y"], found[2]["y"])
     with pytest.raises(InputError, match="rotor must"):
         simulate_many([{**made[0], "rotor": None}])
+    with pytest.raises(InputError, match=r"runs must have reaction and duration each, got \['rotor'\]"):
+        simulate_many([{"rotor": thrown}])
+    with pytest.raises(InputError, match=r"runs must be mappings .* got \{1: 2\}"):
+        simulate_many([{1: 2}])
     with pytest.raises(InputError, match="workers must be an integer, at least 1, got 0"):
         simulate_many(made, workers=0)
