@@ -107,8 +107,14 @@ class SceneModels(NamedTuple):
         return {self.name: (self.bearing, self.start), "rotor": (self.rotor, {})}
 
 
-def models_of(scene: Any) -> SceneModels:
+def models_of(scene: Any, *alone: str) -> SceneModels:
     """Return what of a scene becomes FMUs.
+
+    Parameters
+    ----------
+    scene : Scene
+    alone : str
+        Tables that become an FMU by themselves, which the message names too.
 
     Raises
     ------
@@ -118,10 +124,10 @@ def models_of(scene: Any) -> SceneModels:
     given = [name for name in reversed(FAMILIES) if name in scene.tables]
     place = next((FAMILIES[name].models for name in given if FAMILIES[name].models), None)
     if place is None:
-        known = [name for name, family in FAMILIES.items() if family.models]
+        known = [name for name, family in FAMILIES.items() if family.models or name in alone]
         raise InputError(
             f"scene must have one of the tables {known} for FMUs, got {given}; in Python "
-            "`export_fmu` takes any bearing"
+            "`export_fmu` takes any bearing, also a contact's `ContactLaw` and a bush's `BushWear`"
         )
     found: SceneModels = brought(place)(scene)
     return found
