@@ -25,7 +25,7 @@ from rotorfilm import (
     with_springs,
 )
 from rotorfilm.bearings import HalfSommerfeld, layer_modes
-from rotorfilm.bearings.damper.squeeze_films import CavitatedSqueezeFilm, FullSqueezeFilm
+from rotorfilm.bearings.damper.squeeze_films import short_squeeze_film
 from rotorfilm.bearings.damper.squeeze_laws import FullInertia, ZoneInertia, short_inertia
 
 
@@ -88,8 +88,7 @@ def exact_orbit(eps: float, reynolds: float, **grid: int) -> np.ndarray:
 
 def film_orbit(eps: float, reynolds: float, *, ruptured: bool = False) -> tuple[np.ndarray, np.ndarray]:
     """Return the forces of the package's film on that orbit, with inertia and without."""
-    modes = layer_modes(None)
-    viscous = CavitatedSqueezeFilm(modes) if ruptured else FullSqueezeFilm(modes, np.zeros_like(modes.weight))
+    viscous = short_squeeze_film(layer_modes(None), cavitated=ruptured)
     inertia = ZoneInertia() if ruptured else FullInertia(short_inertia)
     e, w = np.array([eps, 0.0]), np.array([0.0, eps])
     bare = viscous.force(e, w) / reynolds

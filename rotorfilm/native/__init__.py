@@ -12,6 +12,7 @@ if TYPE_CHECKING:
         MapKernel as MapKernel,
         MapKind as MapKind,
         ShortKernel as ShortKernel,
+        SqueezeKernel as SqueezeKernel,
         Status as Status,
     )
     from .library import FOLDER, NativeLibraryError as NativeLibraryError, loops

@@ -130,6 +130,36 @@ class ShortKernel(FilmKernel):
         return {}
 
 
+class SqueezeKernel(FilmKernel):
+    """The short squeeze film of a damper on a porous layer.
+
+    Parameters
+    ----------
+    tables : mapping of str to ndarray
+        Tables `groups`, `arc` and `axial`, as the C library reads them (`native/films/squeeze_film.h`).
+    ends : tuple of two floats [1/s]
+        Pressures at the ends of a fed film that may rupture.
+
+    Raises
+    ------
+    ValueError
+        If the tables are not finite or do not fit each other.
+    """
+
+    _function = "rf_squeeze_film"
+
+    def __init__(self, tables: Mapping[str, ArrayLike], ends: tuple[float, float]) -> None:
+        self._arguments = tables, ends
+        self._tables = as_floats(tables)
+        self.struct = taken(structure("rf_squeeze")(), "rf_take_squeeze", self._tables)
+        self.struct.ends[:] = ends
+
+    @property
+    def tables(self) -> dict[str, Array]:
+        """Groups of modes and nodes; see `FilmKernel.tables`."""
+        return self._tables
+
+
 class MapKind(Enum):
     """The coordinates of an impedance map, by their function in `native/films/map_kernel.h`."""
 

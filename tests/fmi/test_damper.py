@@ -24,7 +24,7 @@ from rotorfilm import (
     simulate,
     with_springs,
 )
-from rotorfilm.bearings import MapSqueeze
+from rotorfilm.bearings import AxialFeed, EndSeal, FiniteSqueeze, HalfSommerfeld, MapSqueeze, ShortSqueeze
 from rotorfilm.fmu import check_fmu
 from rotorfilm.fmu.python.codec import class_modules, decode, encode
 
@@ -46,6 +46,17 @@ MODELS = {
     "full finite": replace(FINITE, extent=FullFilm()),
     "sprung": SUPPORT,
 }
+SHORT = replace(DAMPER, film=ShortSqueeze())
+VENTED = replace(CAGE, vented=True, supply_pressure=2e4)
+SHORT_MODELS = {
+    "full": replace(SHORT, extent=FullFilm()),
+    "cavitated": SHORT,
+    "radial": replace(SHORT, feed=RadialFeed(inflow=2e-4, cosine=True)),
+    "vented": replace(SHORT, cage=VENTED),
+    "axial": replace(SHORT, cage=None, feed=AxialFeed(start_pressure=3e4, end_pressure=1e4)),
+    "full fed": replace(SHORT, extent=FullFilm(), cage=VENTED),
+}
+FEEDS = ("inflow", "supply_pressure", "start_pressure", "end_pressure")
 VERSIONS = ["2.0", "3.0"]
 MOTION = ("x", "y", "vx", "vy")
 FORCES = ("force_x", "force_y")
@@ -104,6 +115,75 @@ def test_a_damper_with_a_map_is_native_by_default_and_passes_all_checks(model, v
     }
     dimensions = {"radius", "length", "clearance", "viscosity", "stiffness"}
     assert names - {""} == {*MOTION, *FORCES, *dimensions}
+
+
+@pytest.mark.parametrize("name", SHORT_MODELS)
+@versions
+def test_a_short_damper_has_the_very_numbers_of_python(name, version, opened):
+    model, exchange = SHORT_MODELS[name], name in ("full", "axial")
+    instance, reference = opened(model, version, exchange)
+    inputs, outputs = [reference[name] for name in MOTION], [reference[name] for name in FORCES]
+    states = motions(5)
+    instance.initialize(inputs, states[0].tolist())
+    for state in states:
+        instance.set(inputs, state.tolist())
+        np.testing.assert_array_equal(instance.get(outputs), model.force(state[:2], state[2:]))
+        columns = [instance.directional(outputs, [one], [1.0]) for one in inputs]
+        np.testing.assert_array_equal(np.array(columns).T, model.jacobian(state[:2], state[2:])[:, :4])
+
+
+@pytest.mark.parametrize(("name", "version"), [("vented", "2.0"), ("axial", "3.0")])
+def test_a_short_damper_passes_all_checks(name, version, tmp_path):
+    path = export_fmu(SHORT_MODELS[name], tmp_path / "d.fmu", version, start={"x": 3e-5, "vy": 0.02})
+    assert [item.check for item in check_fmu(path) if item.passed is False] == []
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "changed"),
+    [
+        ("radial", {"inflow": -1e-4}, lambda m: replace(m, feed=RadialFeed(inflow=-1e-4, cosine=True))),
+        (
+            "vented",
+            {"supply_pressure": 5e4, "viscosity": 2e-3},
+            lambda m: replace(m, cage=replace(VENTED, supply_pressure=5e4), viscosity=2e-3),
+        ),
+        (
+            "axial",
+            {"end_pressure": 4e4, "clearance": 1.2e-4, "length": 0.02},
+            lambda m: replace(
+                m,
+                feed=AxialFeed(start_pressure=3e4, end_pressure=4e4),
+                clearance=1.2e-4,
+                length=0.02,
+            ),
+        ),
+    ],
+)
+def test_what_feeds_a_damper_is_tunable(name, change, changed, opened):
+    model, state = SHORT_MODELS[name], motions(1, 0.8)[0]
+    instance, reference = opened(model, "2.0", False)
+    instance.initialize([reference[one] for one in MOTION], state.tolist())
+    instance.step(0.0, 1e-3)
+    instance.set([reference[one] for one in change], list(change.values()))
+    np.testing.assert_array_equal(
+        instance.get([reference[one] for one in FORCES]), changed(model).force(state[:2], state[2:])
+    )
+    other = next(one for one in FEEDS if one not in change and not getattr(model.feed, one, 0.0))
+    with pytest.raises(FMICallException):
+        instance.set([reference[other]], [1.0])
+
+
+@pytest.mark.parametrize("extent", [FullFilm(), HalfSommerfeld()], ids=["full", "cavitated"])
+def test_a_short_film_between_seals_has_the_force_and_mass_of_python(extent, opened):
+    model = replace(SHORT, cage=None, extent=extent, seals=EndSeal(leakage=2e-8), density=800.0)
+    instance, reference = opened(model, "3.0", False)
+    state = motions(1, 0.8)[0]
+    instance.initialize([reference[one] for one in MOTION], state.tolist())
+    found = instance.get([reference[one] for one in FORCES])
+    np.testing.assert_allclose(found, model.force(state[:2], state[2:]), rtol=1e-12)
+    mass = model.mass(state[:2], state[2:])
+    told = instance.get([reference[f"mass_{pair}"] for pair in ("xx", "xy", "yy")])
+    np.testing.assert_allclose(told, [mass[0, 0], mass[0, 1], mass[1, 1]], rtol=1e-12)
 
 
 @versions
@@ -216,7 +296,8 @@ def test_what_has_no_map_runs_in_python(tmp_path):
 
     dimensions = {"radius": 0.05, "length": 0.025, "clearance": 1e-4, "viscosity": 1.2e-3}
     journal = JournalBearing(**dimensions)
-    for model in (PorousDamper(**dimensions), Twin(**dimensions, film=MapSqueeze())):
+    finite = PorousDamper(**dimensions, extent=FullFilm(), film=FiniteSqueeze())
+    for model in (finite, Twin(**dimensions, film=MapSqueeze())):
         assert model.native() is None
         assert with_springs(model, 1.0).native() is None
         with pytest.raises(FmuError, match="must have a kernel in the C library"):

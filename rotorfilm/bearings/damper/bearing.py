@@ -31,7 +31,7 @@ from ...native.spec import NativeParameter, NativeSpec
 from ..films.geometry import FullFilm, HalfSommerfeld
 from ..films.law import BoundKernel, options
 from ..reaction import NOMINAL_SPEED, InertialModel, broadcast_state, require_size
-from .squeeze_films import LayerModes, PorousLayer, SqueezeFilm, layer_modes
+from .squeeze_films import KernelSqueezeFilm, LayerModes, PorousLayer, SqueezeFilm, layer_modes
 from .squeeze_inertia import (
     FilmSegment,
     SegmentedDamper,
@@ -57,7 +57,6 @@ from .squeeze_laws import (
     radial_table,
     short_inertia,
 )
-from .squeeze_map import MappedSqueezeFilm
 
 # The cage of a damper, and what feeds lubricant to its film.
 
@@ -189,8 +188,8 @@ class SqueezeFilmDamper(InertialModel):
     feed : RadialFeed or AxialFeed, optional
         Feed in addition to a supply pressure at a vented back of the cage.
     film : SqueezeLaw
-        `ShortSqueeze()`, `FiniteSqueeze()`, their maps `MapSqueeze()` and `FiniteMapSqueeze()`, which also
-        run in C inside an FMU. `PublishedSqueeze()` reproduces a published film.
+        `ShortSqueeze()`, `FiniteSqueeze()`, and their maps `MapSqueeze()` and `FiniteMapSqueeze()`. All but
+        `FiniteSqueeze()` run in C inside an FMU. `PublishedSqueeze()` reproduces a published film.
     seals : EndSeal or None
         Seals at both ends of a solid cage without feed; None for open ends.
     density : float [kg/m3]
@@ -254,7 +253,8 @@ class SqueezeFilmDamper(InertialModel):
     @property
     def force_scale(self) -> float:
         """Viscosity * radius * length^3 / clearance^2 [N s], the film's unit of force per 1/s."""
-        return self.viscosity * self.radius * self.length**3 / self.clearance**2
+        length, clearance = self.length, self.clearance
+        return self.viscosity * self.radius * (length * length * length) / (clearance * clearance)
 
     @property
     def nominal_force(self) -> float:
@@ -292,10 +292,10 @@ class SqueezeFilmDamper(InertialModel):
 
     @cached_property
     def film_in_c(self) -> BoundKernel | None:
-        """The film in SI units in C, to be asked at speed 0; None where the law is no map, or table."""
+        """The film in SI units in C, to be asked at speed 0; None where the law has none."""
         if self.is_built:
             return oil_bound(self)
-        if not isinstance(self.bound_film, MappedSqueezeFilm):
+        if not isinstance(self.bound_film, KernelSqueezeFilm):
             return None
         return self.bound_film.bound(clearance=self.clearance, force_scale=self.force_scale)
 
@@ -331,12 +331,12 @@ class SqueezeFilmDamper(InertialModel):
         ends = (
             self.feed if isinstance(self.feed, AxialFeed) else AxialFeed(start_pressure=0.0, end_pressure=0.0)
         )
-        rate = self.clearance**2 / (3.0 * self.viscosity * self.length**2)
+        rate = self.clearance * self.clearance / (3.0 * self.viscosity * (self.length * self.length))
         return SqueezeCase(
             slenderness=self.slenderness,
             layer=self.layer,
             modes=modes,
-            feed=self._feed(modes),
+            feed=self.feed_share(modes) * self._feed_velocity / self.clearance,
             ends=(ends.start_pressure * rate, ends.end_pressure * rate),
             cavitated=isinstance(self.extent, HalfSommerfeld),
             end_leak=self._end_leak,
@@ -351,7 +351,7 @@ class SqueezeFilmDamper(InertialModel):
         return 12.0 * self.viscosity * self.radius * self.seals.leakage / self.clearance**3
 
     def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
-        """Return the force as a function of five numbers; in C for a map. See `StaticReaction.prepare`."""
+        """Return the force as a function of five numbers; see `StaticReaction.prepare`."""
         film = self.film_in_c
         if film is None:
             return super().prepare()
@@ -359,7 +359,7 @@ class SqueezeFilmDamper(InertialModel):
         return lambda x, y, vx, vy, speed: in_c(x, y, vx, vy, 0.0)
 
     def prepare_tangent(self) -> Tangent:
-        """Return force and derivatives as a function of five numbers; in C for a map."""
+        """Return force and derivatives as a function of five numbers; in C where the film is."""
         if self.film_in_c is None:
             return tangent_of(self)
         in_c = self.film_in_c.tangent
@@ -495,21 +495,27 @@ class SqueezeFilmDamper(InertialModel):
     def _scaled(self, position: Array, velocity: Array) -> tuple[Array, Array]:
         return position / self.clearance, velocity / self.clearance
 
-    def _feed(self, modes: LayerModes) -> Array:
-        """Return the feed of each group of modes, shape (N,) [1/s]."""
+    def feed_share(self, modes: LayerModes) -> Array:
+        """Return what of the velocity of a feed reaches the film by each group of modes, shape (N,) [1]."""
+        passed = modes.weight * modes.passage
+        if not isinstance(self.feed, RadialFeed):
+            return passed
+        share = modes.weight if self.feed.at_film else passed
+        if not self.feed.cosine:
+            return share
+        if share.size == 1:
+            return share * 24.0 / math.pi**3
+        # cos(pi z/L) is the first mode, with amplitude 1 in place of the uniform profile's 4/pi
+        return share * np.where(np.arange(share.size) == 0, 0.25 * math.pi, 0.0)
+
+    @property
+    def _feed_velocity(self) -> float:
+        """Velocity of a radial feed, or of the supply through a vented back [m/s]."""
         if isinstance(self.feed, RadialFeed):
-            passage = np.ones_like(modes.weight) if self.feed.at_film else modes.passage
-            through = modes.weight * passage * self.feed.inflow / self.clearance
-            if not self.feed.cosine:
-                return through
-            if through.size == 1:
-                return through * 24.0 / math.pi**3
-            # cos(pi z/L) is the first mode, with amplitude 1 in place of the uniform profile's 4/pi
-            return through * np.where(np.arange(through.size) == 0, 0.25 * math.pi, 0.0)
+            return self.feed.inflow
         if not self._back_is_open or self.cage is None:
-            return np.zeros_like(modes.weight)
-        flux = self.cage.permeability * self.cage.supply_pressure / (self.viscosity * self.cage.thickness)
-        return modes.weight * modes.passage * flux / self.clearance
+            return 0.0
+        return self.cage.permeability * self.cage.supply_pressure / (self.viscosity * self.cage.thickness)
 
     @property
     def _back_is_open(self) -> bool:
@@ -540,7 +546,7 @@ KERNELS = (SqueezeFilmDamper, PorousDamper)
 # The kernel of the C library that is a squeeze-film damper over a map, with or without retainer springs.
 
 
-KERNEL, SEALED_KERNEL = "damper", "oil_damper"
+KERNEL, SHORT_KERNEL, SEALED_KERNEL = "damper", "short_damper", "oil_damper"
 
 DIMENSIONS = (
     ("radius", "m", "radius of the film"),
@@ -551,37 +557,71 @@ DIMENSIONS = (
 
 
 def damper_spec(damper: SqueezeFilmDamper) -> NativeSpec | None:
-    """Return the kernel of a damper for an FMU, `oil_damper` with seals or inertia; None if it has none.
+    """Return the kernel of a damper for an FMU; None if it has none.
 
-    What a map or a table holds for is fixed: the ratios L/D of a film of finite length, H/L and A H/C^3 of a
-    cage, and what a table makes of seals.
+    It is `oil_damper` with seals or inertia, else `damper` over a map and `short_damper` without one. What
+    the tables hold for is fixed: the ratios L/D of a film of finite length, H/L and A H/C^3 of a cage, and
+    what a table makes of seals.
     """
-    mapped, parts = _mapped(damper.bound_film), _parts(damper) if damper.is_built else None
-    if parts is None and (damper.is_built or mapped is None):
+    film, parts = _compiled(damper.bound_film), _parts(damper) if damper.is_built else None
+    if parts is None and (damper.is_built or film is None):
         return None
     tabled = parts is not None and parts.radial is not None
-    tables = None if mapped is None else mapped.native_tables()
+    tables = dict(film.kernel.tables or {}) if film is not None else None
     held: set[str] = set()
-    if tabled or (mapped is not None and mapped.one_slenderness):
+    if tabled or (film is not None and film.one_slenderness):
         held = {"radius", "length"}
     if damper.cage is not None:
         held |= {"length", "clearance"}
     if tabled and damper.seals is not None:
         held |= {"clearance", "viscosity"}
-    parameters = _dimensions(damper, held)
+    kernel, parameters = KERNEL, _dimensions(damper, held)
     if parts is not None:
         heavy, leakage = damper.has_inertia, 0.0 if damper.seals is None else damper.seals.leakage
         parameters += (
             bounded("density", "kg/m3", "of the oil, whose mass is told", damper.density, fixed=not heavy),
             bounded("leakage", "m2/(Pa.s)", "of the seals", leakage, fixed=parts.sealed == 0.0),
         )
-        tables = parts.tables(tables, heavy=heavy)
+        kernel, tables = SEALED_KERNEL, parts.tables(tables, heavy=heavy)
+    elif film is not None and not film.kernel.is_table:
+        kernel, parameters = SHORT_KERNEL, parameters + _feeds(damper)
+        tables = {**(tables or {}), **_feed_tables(damper)}
     return NativeSpec(
-        kernel=KERNEL if parts is None else SEALED_KERNEL,
+        kernel=kernel,
         parameters=parameters,
         tables=tables or {},
         inputs=MOTION_NAMES,
         spring="stiffness",
+    )
+
+
+def _feed_tables(damper: SqueezeFilmDamper) -> dict[str, Array]:
+    """Return the groups of modes with their shares of a feed, and the cage between a supply and the film."""
+    modes, cage = damper.squeeze_case.modes, damper.cage
+    behind = (cage.permeability, cage.thickness) if cage is not None and cage.vented else (0.0, 0.0)
+    groups = np.stack([modes.weight, modes.leak, damper.feed_share(modes)])
+    return {"groups": groups, "cage": np.array(behind)}
+
+
+def _feeds(damper: SqueezeFilmDamper) -> tuple[NativeParameter, ...]:
+    """Return what feeds a short film, fixed where it does not feed this one."""
+    radial = damper.feed.inflow if isinstance(damper.feed, RadialFeed) else 0.0
+    supply = 0.0 if damper.cage is None else damper.cage.supply_pressure
+    ends = (
+        damper.feed if isinstance(damper.feed, AxialFeed) else AxialFeed(start_pressure=0.0, end_pressure=0.0)
+    )
+    between = damper.squeeze_case.cavitated and any(damper.squeeze_case.ends)
+    rows = (
+        ("inflow", "m/s", "velocity of a radial feed", radial, radial != 0.0),
+        ("supply_pressure", "Pa", "gauge pressure at the vented back of the cage", supply, supply != 0.0),
+        ("start_pressure", "Pa", "gauge pressure at the end of negative z", ends.start_pressure, between),
+        ("end_pressure", "Pa", "gauge pressure at the end of positive z", ends.end_pressure, between),
+    )
+    return tuple(
+        bounded(
+            name, unit, text, value, fixed=not free, reason=", as it does not feed the film", least=-math.inf
+        )
+        for name, unit, text, value, free in rows
     )
 
 
@@ -605,49 +645,46 @@ def _dimensions(damper: SqueezeFilmDamper, held: set[str]) -> tuple[NativeParame
 
 
 def bounded(
-    name: str, unit: str, text: str, value: float, *, fixed: bool, reason: str = ""
+    name: str, unit: str, text: str, value: float, *, fixed: bool, reason: str = "", least: float = 0.0
 ) -> NativeParameter:
-    """Return a number that is not negative, or fixed for a reason."""
+    """Return a number that is not below the least one, or fixed for a reason."""
     return NativeParameter(
         name=name,
         unit=unit,
         value=value,
         tunable=not fixed,
-        minimum=value if fixed else 0.0,
+        minimum=value if fixed else least,
         maximum=value if fixed else math.inf,
-        nominal=math.nextafter(0.0, 1.0) if value == 0.0 else value,
+        nominal=abs(value) or math.nextafter(0.0, 1.0),
         description=f"{text}; fixed{reason}" if fixed else text,
     )
 
 
 def oil_bound(damper: SqueezeFilmDamper) -> BoundKernel | None:
     """Return the force in C of a damper with seals or inertia; None where the film has none."""
-    film, parts, mapped = damper.bound_film, _parts(damper), _mapped(damper.bound_film)
+    film, parts, inner = damper.bound_film, _parts(damper), _compiled(damper.bound_film)
     if parts is None:
         return None
     seal = film.damping if isinstance(film, SealedShortFilm) else 0.0
     scales = OilScales(damper.clearance, damper.force_scale, damper.inertia_scale, seal)
-    map_kernel = None
-    if mapped is not None:
-        bound = mapped.bound(clearance=damper.clearance, force_scale=damper.force_scale)
-        map_kernel = bound.kernel.film
-    return BoundKernel(OilDamperKernel(parts, map_kernel, scales), damper.clearance)
+    viscous = None if inner is None else inner.kernel
+    return BoundKernel(OilDamperKernel(parts, viscous, scales), damper.clearance)
 
 
-def _mapped(film: SqueezeFilm) -> MappedSqueezeFilm | None:
+def _compiled(film: SqueezeFilm) -> KernelSqueezeFilm | None:
     inner = film.film if isinstance(film, SealedShortFilm) else film
-    return inner if isinstance(inner, MappedSqueezeFilm) else None
+    return inner if isinstance(inner, KernelSqueezeFilm) else None
 
 
 def _parts(damper: SqueezeFilmDamper) -> OilParts | None:
     film, case = damper.bound_film, damper.squeeze_case
-    mapped = _mapped(film)
-    if mapped is None and not isinstance(film, RadialTable):
+    viscous = _compiled(film)
+    if viscous is None and not isinstance(film, RadialTable):
         return None
     inertia = damper.film_inertia if damper.has_inertia else None
     full = isinstance(inertia, FullInertia)
     closed = isinstance(inertia, FullInertia) and inertia.radial is short_inertia
-    tabled = mapped is None or (full and not closed)
+    tabled = viscous is None or (full and not closed)
     sealed = 0.0 if not isinstance(film, SealedShortFilm) else 0.5 if case.cavitated else 1.0
     return OilParts(
         zone=inertia.share if isinstance(inertia, ZoneInertia) else 0.0,

@@ -1,4 +1,4 @@
-"""The squeeze film of a short damper: what a law answers, and the full film in closed form.
+"""The squeeze film of a short damper on its porous layer, and the full film of finite length.
 
 The race of a damper does not spin. With the eccentricity e = (x, y)/c and its rate w = v/c [1/s], the film
 h = c (1 + e.m), m(theta) the unit vector with theta from the line of maximum film, is squeezed by q = w.m,
@@ -14,18 +14,25 @@ feed being what enters the film from outside. A solid cage is G = h^-3, the text
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import pairwise
-from typing import Any, NamedTuple, Protocol, runtime_checkable
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.errors import UndefinedDerivativeError, warn_user
 from ...core.model import Array
-from ..films.law import CENTER, PolarResponse, cartesian_force, cartesian_jacobian, polar_frame
+from ...native import FilmKernel, SqueezeKernel
+from ..films.law import (
+    CENTER,
+    BoundKernel,
+    KernelFilm,
+    PolarResponse,
+    cartesian_force,
+    cartesian_jacobian,
+    polar_frame,
+)
 
 # What a porous layer takes from a squeeze film and gives to it, axial mode by axial mode.
 #
@@ -189,10 +196,7 @@ def _groups() -> tuple[Array, Array]:
     return np.concatenate(numbers), np.concatenate(shares)
 
 
-# The squeeze film of a short damper: what a law answers, and the full film in closed form.
-
-
-_ROOT = complex(0.5, 0.5 * np.sqrt(3.0))
+# What a squeeze film answers.
 
 
 @runtime_checkable
@@ -218,188 +222,8 @@ class SqueezeFilm(Protocol):
         """Return d force / d (eccentricity, rate), shape (2, 4, ...)."""
 
 
-def circle_integrals(E: Array, leak: Array) -> tuple[Array, ...]:
-    """Return the integrals of a film with 1/(h^3 + leak), exact for every leak >= 0 and 0 <= E < 1.
-
-    With I(f) the integral of f/(h^3 + leak) over the whole circumference, each (N, ...): across = I(sin^2),
-    excess = (I(cos^2) - I(sin^2))/E, lift = -I(cos)/sqrt(E), then d/dE of the three.
-
-    Parameters
-    ----------
-    E : ndarray, shape (...) [1]
-        Squared eccentricity ratio.
-    leak : ndarray, shape (N,) [1]
-
-    Notes
-    -----
-    h^3 + c = (h - h_1)(h - h_2)(h - h_3), and 1 - h_k + eps cos(theta) = (1 + x_k zeta)(1 + x_k/zeta)/(2 p_k)
-    on zeta = exp(i theta), with x_k = eps p_k, p_k = 1/(a_k + S_k), a_k = 1 - h_k, S_k^2 = a_k^2 - E.
-
-    So 1/(h^3 + c) is the spectrum of an autoregressive process of third order with coefficients x_k. Its
-    harmonics are the autocovariances, rational in p_k. There are no partial fractions, which lose digits as
-    c -> 0, and no 1/eps.
-    """
-    kappa = np.cbrt(leak).reshape(-1, *(1,) * E.ndim)
-    p1, S1 = _pole(E, kappa)
-    p2, S2 = _pole(E, -_ROOT * kappa)
-    p1_E, p2_E = 0.5 * p1**2 / S1, 0.5 * p2**2 / S2
-    m, m_E = np.abs(p2) ** 2, 2.0 * (p2_E * p2.conj()).real
-    s1, s1_E = p1 + 2.0 * p2.real, p1_E + 2.0 * p2_E.real
-    s2, s2_E = 2.0 * p1 * p2.real + m, 2.0 * (p1_E * p2.real + p1 * p2_E.real) + m_E
-    s3, s3_E = p1 * m, p1_E * m + p1 * m_E
-    near, near_E = 1.0 - E * p1 * p2, -(p1 * p2 + E * (p1_E * p2 + p1 * p2_E))
-    pair, pair_E = 1.0 - E * m, -(m + E * m_E)
-    across = 8.0 * np.pi * s3 / (np.abs(near) ** 2 * pair)
-    across_log = s3_E / s3 - 2.0 * (near_E / near).real - pair_E / pair
-    common = across / (4.0 * p1 * S1 * np.abs(p2 * S2) ** 2)
-    poles_log = p1_E / p1 - 0.5 / S1**2 + 2.0 * (p2_E / p2 - 0.5 / S2**2).real
-    common_log = across_log - poles_log
-    even = s1 * s1 - s2 + E * (s1 * s3 - s2 * s2)
-    even_E = 2 * s1 * s1_E - s2_E + s1 * s3 - s2 * s2 + E * (s1_E * s3 + s1 * s3_E - 2.0 * s2 * s2_E)
-    odd = s1 - E * E * s2 * s3
-    odd_E = s1_E - 2.0 * E * s2 * s3 - E * E * (s2_E * s3 + s2 * s3_E)
-    return (
-        across,
-        common * even,
-        common * odd,
-        across * across_log,
-        common * (even * common_log + even_E),
-        common * (odd * common_log + odd_E),
-    )
-
-
-def _pole(E: Array, shift: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Return p = 1/(a + S) and S for a = 1 + shift, the root S with |eps p| < 1; 1 - E is kept apart."""
-    a = 1.0 + shift
-    S = a * np.sqrt(((1.0 - E) + shift * (2.0 + shift)) / (a * a))
-    return 1.0 / (a + S), S
-
-
-@dataclass(frozen=True, eq=False)
-class FullSqueezeFilm:
-    """Film all round, tension included: closed forms, exact at the center and in the derivatives.
-
-    F = -across w - excess (e.w) e - lift e. Without feed the last term is absent; a feed into the film gives
-    the rotor a stiffness toward the center.
-
-    Parameters
-    ----------
-    modes : LayerModes
-    feed : ndarray, shape (N,) [1/s]
-        Feed of each group of modes, weight included.
-    """
-
-    modes: LayerModes
-    feed: Array
-
-    def force(self, eccentricity: Array, rate: Array) -> Array:
-        """Return the force on the rotor, shape (2, ...); see `SqueezeFilm.force`."""
-        a, b, k, *_ = self._summed(eccentricity)
-        return -a * rate - (b * np.sum(eccentricity * rate, axis=0) + k) * eccentricity
-
-    def jacobian(self, eccentricity: Array, rate: Array) -> Array:
-        """Return d force / d (eccentricity, rate), shape (2, 4, ...); see `SqueezeFilm.jacobian`."""
-        e, w = eccentricity, rate
-        a, b, k, a_E, b_E, k_E = self._summed(e)
-        ew = np.sum(e * w, axis=0)
-        unit = np.eye(2).reshape(2, 2, *(1,) * ew.ndim)
-        ee = e[:, None] * e
-        by_rate = -a * unit - b * ee
-        by_position = -(b * ew + k) * unit - b * e[:, None] * w
-        by_position -= 2.0 * (a_E * w[:, None] * e + (b_E * ew + k_E) * ee)
-        return np.concatenate([by_position, by_rate], axis=1)
-
-    def _summed(self, e: Array) -> list[Array]:
-        integrals = circle_integrals(np.sum(e * e, axis=0), self.modes.leak)
-        shares = (self.modes.weight, self.modes.weight, self.feed)
-        return [
-            np.tensordot(s, values, axes=1) for s, values in zip((*shares, *shares), integrals, strict=True)
-        ]
-
-
-# Cavitated squeeze film: the half circle towards which the rotor moves carries pressure (pi film).
-
-
-NODES = 48
-"""Gauss-Legendre nodes over the half circle: within 1e-9 of the force at any eccentricity and leak."""
-
-
-SMALLEST = 1e-200
-"""Eccentricity ratio below which the direction of the eccentricity counts for nothing."""
-
-
 Arc = tuple[Array, Array, Array, Array]
 """Cosine and sine at the nodes of an arc, film thickness and weights, each (M, B)."""
-
-
-@dataclass(frozen=True, eq=False)
-class CavitatedSqueezeFilm:
-    """Film on the half circle that turns with the velocity: F = -integral of (w.u) u G over w.u > 0.
-
-    u points from the bearing center to the film. The pressure is zero at both ends, so they add nothing to
-    the derivative. Gauss-Legendre quadrature in the angle that spreads the thin film evenly, as if the
-    layer's leak made it thicker by half the cube root.
-
-    Parameters
-    ----------
-    modes : LayerModes
-    """
-
-    modes: LayerModes
-
-    def force(self, eccentricity: Array, rate: Array) -> Array:
-        """Return the force on the rotor, shape (2, ...); see `SqueezeFilm.force`."""
-        e, w = eccentricity.reshape(2, -1), rate.reshape(2, -1)
-        axes, (cos, sin, h, weight) = self._arc(e, w)
-        along, across = np.einsum("ib,ijb->jb", w, axes)
-        pressure = self._conductance(h)[0] * weight * (along * cos + across * sin)
-        polar = np.stack([np.sum(pressure * cos, axis=0), np.sum(pressure * sin, axis=0)])
-        return -np.einsum("ijb,jb->ib", axes, polar).reshape(eccentricity.shape)
-
-    def jacobian(self, eccentricity: Array, rate: Array) -> Array:
-        """Return d force / d (eccentricity, rate), shape (2, 4, ...); see `SqueezeFilm.jacobian`.
-
-        Raises
-        ------
-        UndefinedDerivativeError
-            Where the rotor is at rest: the half circle has no direction there.
-        """
-        e, w = eccentricity.reshape(2, -1), rate.reshape(2, -1)
-        _require_motion(e, w)
-        axes, (cos, sin, h, weight) = self._arc(e, w)
-        along, across = np.einsum("ib,ijb->jb", w, axes)
-        G, G_h = self._conductance(h)
-        by_rate = _moments(-G * weight, cos, sin)
-        by_position = _moments(G_h * weight * (along * cos + across * sin), cos, sin)
-        turned = [np.einsum("ikb,klb,jlb->ijb", axes, block, axes) for block in (by_position, by_rate)]
-        return np.concatenate(turned, axis=1).reshape(2, 4, *eccentricity.shape[1:])
-
-    def _arc(self, e: Array, w: Array) -> tuple[Array, Arc]:
-        """Return the axes (e_r, e_t) as columns, (2, 2, B), and the nodes around the minimum film."""
-        eps = np.hypot(e[0], e[1])
-        off_center = eps > SMALLEST  # below, the quotients of denormal numbers are no unit vector
-        safe = np.where(off_center, eps, 1.0)
-        cos, sin = np.where(off_center, e[0] / safe, 1.0), np.where(off_center, e[1] / safe, 0.0)
-        axes = np.array([[cos, -sin], [sin, cos]])
-        heading = np.arctan2(cos * w[1] - sin * w[0], cos * w[0] + sin * w[1])
-        return axes, arc_nodes(eps, heading - 0.5 * np.pi, heading + 0.5 * np.pi, self._depth, *self._nodes)
-
-    @cached_property
-    def _depth(self) -> float:
-        """Half the cube root of the mean leak."""
-        return 0.5 * float(np.cbrt(self.modes.weight @ self.modes.leak))
-
-    @cached_property
-    def _nodes(self) -> tuple[Array, Array]:
-        nodes, weights = np.polynomial.legendre.leggauss(NODES)
-        return nodes, weights
-
-    def _conductance(self, h: Array) -> tuple[Array, Array]:
-        """Return G and dG/dh at film thicknesses of any shape."""
-        inverse = 1.0 / (h**3 + self.modes.leak.reshape(-1, *(1,) * h.ndim))
-        G = np.tensordot(self.modes.weight, inverse, axes=1)
-        inverse *= inverse
-        return G, -3.0 * h * h * np.tensordot(self.modes.weight, inverse, axes=1)
 
 
 def arc_nodes(eps: Array, start: Array, end: Array, depth: float, nodes: Array, weights: Array) -> Arc:
@@ -425,178 +249,94 @@ def _spread(psi: Array, b: Array) -> Array:
     return psi + 2.0 * np.arctan2(b * np.sin(psi), 1.0 - b * np.cos(psi))
 
 
-def _moments(density: Array, cos: Array, sin: Array) -> Array:
-    """Return the sum of density u u^T in polar axes, shape (2, 2, B)."""
-    cc, cs, ss = (np.sum(density * product, axis=0) for product in (cos**2, cos * sin, sin**2))
-    return np.array([[cc, cs], [cs, ss]])
+# Short squeeze films in the C library, and the maps that stand for others.
 
 
-def _require_motion(e: Array, w: Array) -> None:
-    still = ~np.any(w, axis=0)
-    if np.any(still):
-        raise UndefinedDerivativeError(
-            "velocity must not vanish where a cavitated squeeze film is asked for a derivative, got rest "
-            f"at eccentricity ratio {np.hypot(*e)[still][0]:.6g}: its force is homogeneous of degree one in "
-            "the velocity but not linear, so it has no damping matrix at rest. Use a FullFilm(), or the "
-            "equivalent coefficients of a circular orbit (orbit_coefficients)"
-        )
+NODES = 48
+"""Gauss-Legendre nodes over the half circle: within 1e-9 of the force at any eccentricity and leak."""
+
+AXIAL_NODES, CELL_NODES = 16, 6
+"""Gauss-Legendre nodes of a fed film that ruptures: along its axis, and in each of 32 cells around it."""
 
 
-# Cavitated squeeze film with feed: its pressure is clipped at zero, point by point.
-
-
-AXIAL_NODES = 16
-CELLS = 32
-CLIPPED_NODES = 6
-ROOT_STEPS = 12
-
-
-_Points = tuple[Array, Array, Array, Array]
-"""Unit vectors (2, K) from the center to points of the film, thickness, pressure per w.u and at rest (K,)."""
-
-
-@dataclass(frozen=True, eq=False)
-class ClippedSqueezeFilm:
-    """Film where its pressure is positive, with feed through the layer and pressures at the ends.
-
-    In units of 3 viscosity length^2/clearance^2, with w.u the speed towards the point,
-
-        p = ends(Z) + sum over the groups of shape(Z) (w.u + feed/weight)/(h^3 + leak),
-
-    and F = -(3/2) times the integral of max(p, 0) u over theta and Z. Along the axis there are Gauss-Legendre
-    nodes. Around it cells are cut where the pressure vanishes (the force is within 1e-3), so the derivative
-    of the force is the integral of the derivative.
+@dataclass(frozen=True)
+class KernelSqueezeFilm(KernelFilm):
+    """A squeeze film in the C library: its source is the rate.
 
     Parameters
     ----------
-    modes : LayerModes
-    feed : ndarray, shape (N,) [1/s]
-        Feed of each group of modes, weight included.
-    ends : tuple of two floats [1/s]
-        Pressure at Z = -1 and Z = 1.
+    kernel : FilmKernel
+        Film in units of a squeeze film: a map or a `SqueezeKernel`.
+    one_slenderness : bool
+        Whether it is that of one length / diameter only, as the map of a film of finite length.
     """
 
-    modes: LayerModes
-    feed: Array
-    ends: tuple[float, float]
+    kernel: FilmKernel
+    one_slenderness: bool = False
 
-    def force(self, eccentricity: Array, rate: Array) -> Array:
+    def _kernel(self, slenderness: float) -> FilmKernel:
+        return self.kernel
+
+    def bound(self, *, clearance: float, force_scale: float) -> BoundKernel:
+        """Return the film of one damper in SI units, in C.
+
+        Its speed must be 0, since a damper has no wedge.
+        """
+        return self.bind(slenderness=1.0, clearance=clearance, force_scale=force_scale)
+
+    def force(self, eccentricity: Array, rate: Array, slenderness: float = 1.0) -> Array:
         """Return the force on the rotor, shape (2, ...); see `SqueezeFilm.force`."""
-        states = zip(eccentricity.reshape(2, -1).T, rate.reshape(2, -1).T, strict=True)
-        forces = [self._force(e, w) for e, w in states]
-        return np.array(forces).reshape(-1, 2).T.reshape(eccentricity.shape)
+        return super().force(eccentricity, rate, slenderness)
 
-    def jacobian(self, eccentricity: Array, rate: Array) -> Array:
+    def jacobian(self, eccentricity: Array, rate: Array, slenderness: float = 1.0) -> Array:
         """Return d force / d (eccentricity, rate), shape (2, 4, ...); see `SqueezeFilm.jacobian`.
 
         Raises
         ------
         UndefinedDerivativeError
-            At rest where nothing feeds the film: its half circle has no direction there.
+            Where the rotor is at rest in a film that ruptures without feed: its half circle has no direction.
         """
-        states = zip(eccentricity.reshape(2, -1).T, rate.reshape(2, -1).T, strict=True)
-        slopes = np.array([self._jacobian(e, w) for e, w in states]).reshape(-1, 2, 4)
-        return np.moveaxis(slopes, 0, -1).reshape(2, 4, *eccentricity.shape[1:])
-
-    def _force(self, e: Array, w: Array) -> Array:
-        (u, _, slope, offset), weight = self._film(e, w)
-        return -u @ (weight * (slope * (w @ u) + offset))
-
-    def _jacobian(self, e: Array, w: Array) -> Array:
-        if not (np.any(w) or np.any(self.feed) or np.any(self.ends)):
+        try:
+            return super().jacobian(eccentricity, rate, slenderness)
+        except UndefinedDerivativeError as error:
             raise UndefinedDerivativeError(
-                "velocity must not vanish where a derivative of a cavitated squeeze film without feed is "
-                f"asked for, got rest at eccentricity ratio {np.hypot(*e):.6g}"
-            )
-        (u, _, slope, _), (plain, thinner, fed) = self._film(e, w, slopes=True)
-        by_rate = -(u * (plain * slope)) @ u.T
-        # dh/de = -u
-        by_position = (u * (thinner * (w @ u) + fed)) @ u.T
-        return np.concatenate([by_position, by_rate], axis=1)
-
-    def _film(self, e: Array, w: Array, *, slopes: bool = False) -> tuple[_Points, Array]:
-        """Return the quadrature points in the film and their weights (K,).
-
-        With `slopes` the weights are (3, K): plain, and times the slopes of both pressure parts by h.
-        """
-        axis = np.arctan2(e[1], e[0])
-        eps = float(np.hypot(*e))
-        edges = np.linspace(-np.pi, np.pi, CELLS + 1)
-        row, first, last = self._cells(eps, axis, w, edges)
-        x, weights = np.polynomial.legendre.leggauss(CLIPPED_NODES)
-        half = 0.5 * (last - first)[:, None]
-        xi = 0.5 * (first + last)[:, None] + half * x
-        rows = np.broadcast_to(row[:, None], xi.shape).ravel()
-        points, stretch = self._points(eps, axis, xi.ravel(), rows)
-        weight = 1.5 * self._axial[1][rows] * (half * weights).ravel() * stretch
-        if not slopes:
-            return points, weight
-        h = points[1]
-        inverse = 1.0 / (h**3 + self.modes.leak[:, None])
-        thinner = -3.0 * h**2 * inverse**2 * self._axial[2][:, rows]
-        ratio = self.feed / self.modes.weight
-        return points, weight * np.stack([np.ones_like(weight), thinner.sum(axis=0), ratio @ thinner])
-
-    def _cells(self, eps: float, axis: float, w: Array, edges: Array) -> tuple[np.ndarray, Array, Array]:
-        """Return axial node, first and last angle of each piece of a cell where the pressure is positive."""
-        rows = np.repeat(np.arange(AXIAL_NODES), edges.size)
-
-        def pressure(xi: Array, row: np.ndarray) -> Array:
-            u, _, slope, offset = self._points(eps, axis, xi, row)[0]
-            return slope * (w @ u) + offset
-
-        at_edges = pressure(np.tile(edges, AXIAL_NODES), rows).reshape(AXIAL_NODES, -1)
-        low, high = at_edges[:, :-1], at_edges[:, 1:]
-        first = np.broadcast_to(edges[:-1], low.shape).copy()
-        last = np.broadcast_to(edges[1:], low.shape).copy()
-        row, column = np.nonzero((low > 0.0) != (high > 0.0))
-        ends = edges[column], edges[column + 1], low[row, column], high[row, column]
-        root = _root(lambda xi: pressure(xi, row), *ends)
-        rising = high[row, column] > 0.0
-        first[row[rising], column[rising]] = root[rising]
-        last[row[~rising], column[~rising]] = root[~rising]
-        kept = np.nonzero((low > 0.0) | (high > 0.0))
-        return kept[0], first[kept], last[kept]
-
-    def _points(self, eps: float, axis: float, xi: Array, row: np.ndarray) -> tuple[_Points, Array]:
-        """Return the points at the angles xi (K,) of the spread film, and dpsi/dxi."""
-        rho = np.sqrt((1.0 - eps + self._depth) / (1.0 + eps + self._depth))
-        b = (1.0 - rho) / (1.0 + rho)
-        den = 1.0 + b * b + 2.0 * b * np.cos(xi)
-        h = (1.0 - eps) + eps * 2.0 * ((1.0 - b) * np.sin(0.5 * xi)) ** 2 / den
-        psi = axis + xi - 2.0 * np.arctan2(b * np.sin(xi), 1.0 + b * np.cos(xi))
-        Z, _, shapes = self._axial
-        parts = shapes[:, row] / (h**3 + self.modes.leak[:, None])
-        ends = self.ends[0] + 0.5 * (1.0 + Z[row]) * (self.ends[1] - self.ends[0])
-        offset = ends + (self.feed / self.modes.weight) @ parts
-        u = np.stack([np.cos(psi), np.sin(psi)])
-        return (u, h, parts.sum(axis=0), offset), (1.0 - b * b) / den
-
-    @cached_property
-    def _axial(self) -> tuple[Array, Array, Array]:
-        """Axial nodes and weights, shape (J,), and the groups' pressures there, (N, J)."""
-        Z, weights = np.polynomial.legendre.leggauss(AXIAL_NODES)
-        return Z, weights, axial_shapes(self.modes, Z)
-
-    @cached_property
-    def _depth(self) -> float:
-        return 0.5 * float(np.cbrt(self.modes.weight @ self.modes.leak))
+                f"{error}: the force of a film that ruptures without feed is homogeneous of degree one in "
+                "the velocity but not linear, so it has no damping matrix at rest. Use a FullFilm(), or the "
+                "equivalent coefficients of a circular orbit (orbit_coefficients)"
+            ) from None
 
 
-def _root(
-    function: Callable[[Array], Array], low: Array, high: Array, at_low: Array, at_high: Array
-) -> Array:
-    """Return the zeros between low and high by the Illinois variant of the false position, all at once."""
-    for _ in range(ROOT_STEPS):
-        change = at_high - at_low
-        middle = np.where(
-            change == 0.0, 0.5 * (low + high), high - at_high * (high - low) / np.where(change, change, 1)
-        )
-        value = function(middle)
-        crossed = (value > 0.0) != (at_high > 0.0)
-        low, at_low = np.where(crossed, high, low), np.where(crossed, at_high, 0.5 * at_low)
-        high, at_high = middle, value
-    return high
+def short_squeeze_film(
+    modes: LayerModes,
+    feed: Array | None = None,
+    *,
+    cavitated: bool = False,
+    ends: tuple[float, float] = (0.0, 0.0),
+) -> KernelSqueezeFilm:
+    """Return a short film on a porous layer, by `native/films/squeeze_film.c`.
+
+    A full film is exact, in closed form. A film that ruptures carries pressure on the half circle towards
+    which the rotor moves, within 1e-9. With feed it has a pressure where that is positive, within 1e-3.
+
+    Parameters
+    ----------
+    modes : LayerModes
+    feed : ndarray, shape (N,) [1/s], optional
+        Feed of each group of modes, weight included.
+    cavitated : bool
+        Whether the film ruptures.
+    ends : tuple of two floats [1/s]
+        Pressure at Z = -1 and Z = 1 of a film that ruptures, in units of 3 viscosity length^2/clearance^2.
+    """
+    feed = np.zeros_like(modes.weight) if feed is None else feed
+    tables = {"groups": np.stack([modes.weight, modes.leak, feed])}
+    if cavitated:
+        fed = bool(np.any(feed) or np.any(ends))
+        tables["arc"] = np.array(np.polynomial.legendre.leggauss(CELL_NODES if fed else NODES))
+        if fed:
+            Z, weights = np.polynomial.legendre.leggauss(AXIAL_NODES)
+            tables["axial"] = np.stack([Z, weights, *axial_shapes(modes, Z)])
+    return KernelSqueezeFilm(SqueezeKernel(tables, ends))
 
 
 # Full squeeze film of finite length on a porous layer, with flow around the circumference in both.
@@ -662,15 +402,15 @@ class FiniteSqueezeFilm:
         film[:, :2] -= lift * np.eye(2)[:, :, None] + lift_slope / frame.chi * e[:, None] * e
         return film.reshape(2, 4, *eccentricity.shape[1:]) + self._short.jacobian(eccentricity, rate)
 
-    @property
-    def _short(self) -> FullSqueezeFilm:
+    @cached_property
+    def _short(self) -> KernelSqueezeFilm:
         """The remaining axial modes."""
         rest = slice(TWO_DIMENSIONAL_MODES, None)
         if len(self.modes.weight) == 1:  # one group stands for all modes
             share = np.array([1.0 - np.sum(6.0 / axial_numbers()[:TWO_DIMENSIONAL_MODES] ** 4)])
-            return FullSqueezeFilm(self.modes._replace(weight=share), share * self.feed)
+            return short_squeeze_film(self.modes._replace(weight=share), share * self.feed)
         modes = self.modes._replace(weight=self.modes.weight[rest], leak=self.modes.leak[rest])
-        return FullSqueezeFilm(modes, self.feed[rest])
+        return short_squeeze_film(modes, self.feed[rest])
 
     def _response(self, chi: Array) -> tuple[PolarResponse, Array, Array]:
         """Return the polar matrix, the lift per eccentricity and its slope at eccentricity ratios (B,)."""

@@ -16,14 +16,12 @@ from ...core.inputs import arguments, quantities
 from ...core.model import Array
 from .squeeze_films import (
     LARGEST,
-    CavitatedSqueezeFilm,
-    ClippedSqueezeFilm,
     FiniteSqueezeFilm,
-    FullSqueezeFilm,
     LayerModes,
     PorousLayer,
     SqueezeFilm,
     arc_nodes,
+    short_squeeze_film,
 )
 
 
@@ -99,7 +97,8 @@ class ShortSqueeze(SqueezeOptions):
 
     def bind(self, case: SqueezeCase) -> SqueezeFilm:
         """Return the film of one damper; raise InputError where its seals are tight."""
-        return sealed_short(_open_short(case), case)
+        film = short_squeeze_film(case.modes, case.feed, cavitated=case.cavitated, ends=case.ends)
+        return sealed_short(film, case)
 
     def inertia(self, case: SqueezeCase) -> FilmInertia:
         """Return the inertia of the film of one damper; see `SqueezeOptions`."""
@@ -148,14 +147,6 @@ class PublishedSqueeze(SqueezeOptions):
             )
         conductance = 1.0 if case.layer is None else published_conductance(case.layer)
         return _LinearSqueezeFilm(math.pi * conductance, 3.0 * math.pi * float(np.sum(case.feed)))
-
-
-def _open_short(case: SqueezeCase) -> SqueezeFilm:
-    if not case.cavitated:
-        return FullSqueezeFilm(case.modes, case.feed)
-    if np.any(case.feed) or np.any(case.ends):
-        return ClippedSqueezeFilm(case.modes, case.feed, case.ends)
-    return CavitatedSqueezeFilm(case.modes)
 
 
 def sealed_short(film: SqueezeFilm, case: SqueezeCase) -> SqueezeFilm:

@@ -7,11 +7,9 @@ damper too.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any, ClassVar, cast
 
 import numpy as np
@@ -21,14 +19,11 @@ from ...core.errors import ConvergenceError, InputError
 from ...core.inputs import quantities
 from ...core.model import Array
 from ...core.sources import source_digest
-from ...native import MapKernel
-from ..films.law import BoundKernel, KernelFilm
 from ..films.map_fit import fit_map_table, node_eccentricities, tabulate_film
 from ..films.map_table import MapTable, cached_table, table_path
 from .squeeze_films import (
-    CavitatedSqueezeFilm,
     FiniteSqueezeFilm,
-    FullSqueezeFilm,
+    KernelSqueezeFilm,
     LayerModes,
     PorousLayer,
     SqueezeFilm,
@@ -37,6 +32,7 @@ from .squeeze_films import (
     layer_modes,
     leakage,
     mean_permeability,
+    short_squeeze_film,
 )
 from .squeeze_laws import (
     FilmInertia,
@@ -129,11 +125,9 @@ def squeeze_path(
 def _short_table(layer: PorousLayer | None, cavitated: bool, cells: tuple[int, int]) -> MapTable:
     modes = layer_modes(layer)
     if not cavitated:
-        return _full_table(FullSqueezeFilm(modes, np.zeros_like(modes.weight)), cells, LARGEST)
-    film = CavitatedSqueezeFilm(modes)
-    # Under the protocol of journal films, whatever the slenderness.
+        return _full_table(short_squeeze_film(modes), cells, LARGEST)
     return tabulate_film(
-        SimpleNamespace(force=lambda e, w, slenderness: film.force(e, w)),
+        short_squeeze_film(modes, cavitated=True),
         slenderness_range=(RATIO, RATIO),
         cells=(*cells, 0),
         largest_eccentricity_ratio=LARGEST,
@@ -200,7 +194,7 @@ class TabulatedSqueeze(SqueezeOptions):
         key = None if self.is_short else case.slenderness, case.layer, case.cavitated
         return squeeze_table(*key, self.cells) if self.table is None else self.table.required(*key)
 
-    def _mapped(self, case: SqueezeCase) -> MappedSqueezeFilm:
+    def _mapped(self, case: SqueezeCase) -> KernelSqueezeFilm:
         """Return the film of one damper; one that ruptures in a solid cage is a journal's at the wall."""
         if np.any(case.feed) or (case.cavitated and np.any(case.ends)):
             raise InputError(
@@ -209,7 +203,7 @@ class TabulatedSqueeze(SqueezeOptions):
             )
         own, ratio = self._table(case), SHORT if self.is_short else case.slenderness
         wall = (ratio, 0.25 / ratio**2) if own.cavitated and own.layer is None else (0.0, 0.0)
-        return MappedSqueezeFilm(SqueezeMapFilm(own.table.kernel(RATIO, wall)), not self.is_short)
+        return KernelSqueezeFilm(own.table.kernel(RATIO, wall), not self.is_short)
 
 
 @quantities
@@ -285,63 +279,6 @@ class FiniteMapSqueeze(TabulatedSqueeze):
     def inertia(self, case: SqueezeCase) -> FilmInertia:
         """Return the inertia of the film of one damper; see `SqueezeOptions`."""
         return finite_film_inertia(case)
-
-
-@dataclass(frozen=True)
-class SqueezeMapFilm(KernelFilm):
-    """A map in units of a squeeze film.
-
-    Parameters
-    ----------
-    kernel : MapKernel
-        Kernel of any slenderness.
-    """
-
-    kernel: MapKernel
-
-    def _kernel(self, slenderness: float) -> MapKernel:
-        return self.kernel
-
-
-@dataclass(frozen=True)
-class MappedSqueezeFilm:
-    """A squeeze film on the journal's map: its source is the rate.
-
-    Parameters
-    ----------
-    film : SqueezeMapFilm
-        Film in units of a squeeze film.
-    one_slenderness : bool
-        Whether the table is that of one length / diameter only, as that of a film of finite length.
-    """
-
-    film: SqueezeMapFilm
-    one_slenderness: bool
-
-    def bound(self, *, clearance: float, force_scale: float) -> BoundKernel:
-        """Return the film of one damper in SI units, in C.
-
-        Its speed must be 0, since a damper has no wedge.
-        """
-        return self.film.bind(slenderness=RATIO, clearance=clearance, force_scale=force_scale)
-
-    def native_tables(self) -> Mapping[str, Array]:
-        """Return the tables of the kernel "damper"."""
-        return self.film.kernel.tables
-
-    def force(self, eccentricity: Array, rate: Array) -> Array:
-        """Return the force on the rotor, shape (2, ...); see `SqueezeFilm.force`."""
-        return self.film.force(eccentricity, rate, RATIO)
-
-    def jacobian(self, eccentricity: Array, rate: Array) -> Array:
-        """Return d force / d (eccentricity, rate), shape (2, 4, ...); see `SqueezeFilm.jacobian`.
-
-        Raises
-        ------
-        UndefinedDerivativeError
-            Where the rotor is at rest off the center.
-        """
-        return self.film.jacobian(eccentricity, rate, RATIO)
 
 
 # Potential of a cavitated squeeze film of finite length on a porous layer: the free arc, solved spectrally.

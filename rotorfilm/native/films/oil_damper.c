@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "map_frame.h"
+#include "squeeze_film.h"
 
 #define CONVECTION (17.0 / 70.0)
 #define PI 3.14159265358979323846
@@ -95,23 +96,16 @@ typedef struct zone {
     double mass[3], by_e[4], push[2], push_by_w[3], push_by_e[3]; /* symmetric ones as xx, xy, yy; by_e: xxx, xxy, xyy, yyy */
 } zone;
 
-static double spread(double psi, double b)
-{
-    return psi + 2.0 * atan2(b * sin(psi), 1.0 - b * cos(psi));
-}
-
 static void set_zone(const rf_oil_damper *of, const motion *at, zone *to)
 {
     const double eps = sqrt(at->E), minimum = atan2(at->e[1], at->e[0]), ahead = atan2(at->w[1], at->w[0]) - minimum;
-    const double rho = sqrt((1.0 - eps) / (1.0 + eps)), b = (1.0 - rho) / (1.0 + rho);
-    const double first = spread(ahead - 0.5 * PI, b), last = spread(ahead + 0.5 * PI, b), half = 0.5 * (last - first);
+    const rf_arc arc = rf_set_arc(eps, 0.0);
+    const double first = rf_spread(&arc, ahead - 0.5 * PI), last = rf_spread(&arc, ahead + 0.5 * PI), half = 0.5 * (last - first);
     const double cm = cos(minimum), sm = sin(minimum);
     memset(to, 0, sizeof *to);
     for (int32_t k = 0; k < of->count; ++k) {
-        const double xi = 0.5 * (first + last) + half * of->nodes[k], den = 1.0 + b * b + 2.0 * b * cos(xi);
-        const double root = (1.0 - b) * sin(0.5 * xi), less = 2.0 * root * root / den;
-        const double sine = (1.0 - b * b) * sin(xi) / den, cosine = 1.0 - less, h = (1.0 - eps) + eps * less;
-        const double weight = of->zone * half * of->weights[k] * (1.0 - b * b) / den;
+        const rf_place place = rf_place_at(&arc, 0.5 * (first + last) + half * of->nodes[k]);
+        const double sine = place.sin, cosine = place.cos, h = place.h, weight = of->zone * half * of->weights[k] * place.stretch;
         const double x = cm * cosine - sm * sine, y = sm * cosine + cm * sine;
         const double toward = (at->w[0] * x + at->w[1] * y) / h, m = 0.1 * weight / h, m_h = m / h;
         const double q = CONVECTION * weight * toward * toward, r = -2.0 * CONVECTION * weight * toward / h;

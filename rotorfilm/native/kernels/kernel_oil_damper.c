@@ -2,9 +2,9 @@
 
    Parameters of a journal (journal_model.h), stiffness [N/m], density [kg/m3] and leakage [m2/(Pa s)] of the seals, which
    only a short film reads; inputs x, y [m], vx, vy [m/s]; outputs force_x, force_y [N] and, where the table `parts` says so,
-   mass_xx, mass_xy, mass_yy [kg]. Tables: parts (6: whether the viscous film is the map; shares of zone, closed form and
+   mass_xx, mass_xy, mass_yy [kg]. Tables: parts (6: whether the viscous film is a map or that of squeeze_film.h; shares of zone, closed form and
    table in the inertia; share of the circumference between leaking seals, 0 without; whether there is a mass); of a map
-   those of RF_PLAIN in map_table.h; of a table radial (terms, 7) and least (1); of a zone
+   those of RF_PLAIN in map_table.h, else those of rf_take_squeeze; of a table radial (terms, 7) and least (1); of a zone
    nodes and weights. */
 
 /* Documentation of the FMU
@@ -29,6 +29,7 @@
 #include "../films/journal_model.h"
 #include "../films/map_table.h"
 #include "../films/oil_damper.h"
+#include "../films/squeeze_film.h"
 
 enum { RADIUS, LENGTH, CLEARANCE, VISCOSITY, STIFFNESS, DENSITY, LEAKAGE, PARAMETERS, INPUTS = 4 };
 enum { MAPPED, ZONE, CLOSED, TABLED, SEALED, HEAVY, PARTS };
@@ -38,6 +39,7 @@ enum { MAPPED, ZONE, CLOSED, TABLED, SEALED, HEAVY, PARTS };
 typedef struct model {
     rf_oil_damper damper; /* first, as journal_model.h asks */
     rf_map map;
+    rf_squeeze film;
     double stiffness, sealed;
     int heavy;
 } model;
@@ -90,15 +92,17 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     to->least = 1.0;
     self->sealed = part[SEALED];
     self->heavy = part[HEAVY] != 0.0;
-    if (to->mapped && rf_take_map(&self->map, RF_PLAIN, "", tables, why) != RF_OK)
+    const int closed = rf_seek_table(tables, "groups") != NULL;
+    if (to->mapped && (closed ? rf_take_squeeze(&self->film, tables, why) : rf_take_map(&self->map, RF_PLAIN, "", tables, why)) != RF_OK)
         return RF_INVALID;
     if ((!to->mapped || to->tabled != 0.0) && take_radial(to, tables, why) != RF_OK)
         return RF_INVALID;
-    if (to->mapped)
+    to->journal.film = closed ? rf_squeeze_film : rf_map_film;
+    to->journal.data = closed ? (const void *)&self->film : &self->map;
+    if (to->mapped && !closed) {
         rf_map_to_wall(&self->map);
-    to->journal.film = rf_map_film;
-    to->journal.data = &self->map;
-    to->journal.error = to->mapped ? rf_map_error(&self->map) : 0.0;
+        to->journal.error = rf_map_error(&self->map);
+    }
     const rf_sizes mine = {PARAMETERS, INPUTS, self->heavy ? 5 : 2, 0, 0};
     *sizes = mine;
     return to->zone != 0.0 ? take_zone(to, tables, why) : RF_OK;

@@ -14,15 +14,13 @@ from scipy.sparse.linalg import spsolve
 from rotorfilm import UndefinedDerivativeError, ValidityWarning
 from rotorfilm.bearings import layer_modes
 from rotorfilm.bearings.damper.squeeze_films import (
-    CavitatedSqueezeFilm,
-    ClippedSqueezeFilm,
     FiniteSqueezeFilm,
-    FullSqueezeFilm,
+    LayerModes,
     PorousLayer,
     axial_numbers,
     axial_shapes,
-    circle_integrals,
     leakage,
+    short_squeeze_film,
 )
 from rotorfilm.bearings.damper.squeeze_laws import parabola_mean
 
@@ -32,32 +30,26 @@ SEALED = PorousLayer(
 VENTED = SEALED._replace(vented=True)
 
 
-def without_feed(film, layer, *more):
-    modes = layer_modes(layer)
-    return film(modes, np.zeros_like(modes.weight), *more)
-
-
 def fed(layer, velocity=0.3):
     modes = layer_modes(layer)
     return modes, velocity * modes.weight * modes.passage
 
 
 FILMS = {
-    "solid": without_feed(FullSqueezeFilm, None),
-    "Darcy": without_feed(FullSqueezeFilm, SEALED),
-    "vented": without_feed(FullSqueezeFilm, VENTED),
-    "fed": FullSqueezeFilm(*fed(SEALED)),
+    "solid": short_squeeze_film(layer_modes(None)),
+    "Darcy": short_squeeze_film(layer_modes(SEALED)),
+    "vented": short_squeeze_film(layer_modes(VENTED)),
+    "fed": short_squeeze_film(*fed(SEALED)),
     "finite": FiniteSqueezeFilm(0.5, SEALED, *fed(SEALED)),
     "finite solid": FiniteSqueezeFilm(1.0, None, layer_modes(None), np.zeros(1)),
-    "cavitated solid": CavitatedSqueezeFilm(layer_modes(None)),
-    "cavitated": CavitatedSqueezeFilm(layer_modes(SEALED)),
-    "clipped": ClippedSqueezeFilm(*fed(SEALED), (0.0, 0.0)),
-    "clipped between pressures": ClippedSqueezeFilm(*fed(VENTED, 0.1), (0.2, -0.05)),
+    "cavitated solid": short_squeeze_film(layer_modes(None), cavitated=True),
+    "cavitated": short_squeeze_film(layer_modes(SEALED), cavitated=True),
+    "clipped": short_squeeze_film(*fed(SEALED), cavitated=True),
+    "clipped between pressures": short_squeeze_film(*fed(VENTED, 0.1), cavitated=True, ends=(0.2, -0.05)),
 }
 UNFED = {name: FILMS[name] for name in ("solid", "Darcy", "vented", "cavitated solid", "cavitated")} | {
     "finite solid": FILMS["finite solid"],
     "finite": FiniteSqueezeFilm(0.5, SEALED, *fed(SEALED, 0.0)),
-    "clipped": without_feed(ClippedSqueezeFilm, SEALED, (0.0, 0.0)),
 }
 films = pytest.mark.parametrize("film", FILMS.values(), ids=FILMS.keys())
 angle = st.floats(-3.1, 3.1)
@@ -127,7 +119,7 @@ def test_center_is_no_exception(film):
 @pytest.mark.closed_form
 @pytest.mark.parametrize("leak", [0.0, 1e-12, 1e-4, 0.03, 8.0, 100.0])
 @pytest.mark.parametrize("chi", [0.0, 1e-3, 0.3, 0.9, 0.99])
-def test_circle_integrals_are_those_of_quadrature(chi, leak):
+def test_full_film_of_one_leak_is_that_of_quadrature(chi, leak):
     points = [np.pi + side * near for near in (0.03, 0.3) for side in (-1, 1)]
 
     def integral(trig):
@@ -136,11 +128,13 @@ def test_circle_integrals_are_those_of_quadrature(chi, leak):
 
         return quad(integrand, 0.0, 2.0 * np.pi, points=points, epsabs=1e-12, epsrel=1e-12, limit=400)[0]
 
-    (across,), (excess,), (lift,), *_ = circle_integrals(np.array(chi**2), np.array([leak]))
-    sin2, cos2 = integral(lambda t: np.sin(t) ** 2), integral(lambda t: np.cos(t) ** 2)
-    assert across == pytest.approx(sin2, rel=1e-11)
-    assert across + chi**2 * excess == pytest.approx(cos2, rel=1e-11)
-    assert -chi * lift == pytest.approx(integral(np.cos), rel=1e-10, abs=1e-12)
+    modes, e = LayerModes(np.ones(1), np.array([leak]), np.ones(1)), np.array([chi, 0.0])
+    (along, none), (_, across) = -short_squeeze_film(modes).force(np.array([e, e]).T, np.eye(2)).T
+    lift = short_squeeze_film(modes, np.ones(1)).force(e, np.zeros(2))
+    assert none == 0.0
+    assert across == pytest.approx(integral(lambda t: np.sin(t) ** 2), rel=1e-11)
+    assert along == pytest.approx(integral(lambda t: np.cos(t) ** 2), rel=1e-11)
+    assert lift[0] == pytest.approx(integral(np.cos), rel=1e-10, abs=1e-12)
 
 
 @pytest.mark.closed_form
@@ -318,7 +312,7 @@ def test_finite_film_in_small_motion(slenderness):
 def test_finite_film_becomes_short(layer):
     e, w = random_states(4)
     modes, feed = fed(layer)
-    short = FullSqueezeFilm(modes, feed).jacobian(e, w)
+    short = short_squeeze_film(modes, feed).jacobian(e, w)
     if layer is None:
         feed = feed / 1.0
     errors = [
@@ -340,26 +334,40 @@ def test_finite_film_equals_the_two_dimensional_reynolds_film():
     assert_allclose(4.0 * slenderness**2 * finite, reynolds, rtol=2e-4)
 
 
-def test_clipping_without_feed_is_the_half_circle():
+def test_clipping_with_hardly_any_feed_is_the_half_circle():
     e, w = random_states(10)
-    clipped = UNFED["clipped"].force(e, w)
+    clipped = short_squeeze_film(*fed(SEALED, 1e-9), cavitated=True).force(e, w)
     assert_allclose(clipped, FILMS["cavitated"].force(e, w), atol=2e-5 * np.abs(clipped).max())
 
 
-@pytest.mark.parametrize("name", ["clipped", "clipped between pressures"])
-def test_strong_feed_fills_the_film(name):
+@pytest.mark.parametrize("layer", [SEALED, VENTED])
+def test_strong_feed_fills_the_film(layer):
     # Enough inflow keeps every pressure positive: then clipping does nothing.
-    film = FILMS[name]
     e, w = random_states(5, largest=0.5)
-    full = FullSqueezeFilm(film.modes, 60.0 * film.modes.weight * film.modes.passage)
-    clipped = ClippedSqueezeFilm(film.modes, full.feed, (1.0, 0.5))
-    assert_allclose(clipped.force(e, w), full.force(e, w), rtol=1e-5)
+    modes, feed = fed(layer, 60.0)
+    clipped = short_squeeze_film(modes, feed, cavitated=True, ends=(1.0, 0.5))
+    assert_allclose(clipped.force(e, w), short_squeeze_film(modes, feed).force(e, w), rtol=1e-5)
 
 
 def test_strong_suction_empties_the_film():
     modes, feed = fed(SEALED._replace(thin=True), -50.0)
     e, w = random_states(5)
-    assert_allclose(ClippedSqueezeFilm(modes, feed, (0.0, 0.0)).force(e, w), 0.0, atol=1e-14)
+    assert_allclose(short_squeeze_film(modes, feed, cavitated=True).force(e, w), 0.0, atol=1e-14)
+
+
+@pytest.mark.parametrize(("layer", "ends"), [(SEALED, (0.0, 0.0)), (None, (0.3, 0.3))], ids=["back", "ends"])
+def test_clipped_force_is_that_of_the_pressures_on_a_fine_grid(layer, ends):
+    # p = ends + sum shape (w.u + feed/weight)/(h^3 + leak), F = -(3/2) int int max(p, 0) u, in plain sums.
+    modes, feed = fed(layer, 0.3 if layer else 0.0)
+    Z = (np.arange(400) + 0.5) / 200.0 - 1.0
+    theta = 2.0 * np.pi * (np.arange(800) + 0.5) / 800
+    u, shapes = np.stack([np.cos(theta), np.sin(theta)]), axial_shapes(modes, Z)
+    film = short_squeeze_film(modes, feed, cavitated=True, ends=ends)
+    for e, w in zip(*(part.T for part in random_states(3, 0.7)), strict=True):
+        inverse = 1.0 / ((1.0 - e @ u) ** 3 + modes.leak[:, None])
+        p = shapes.T @ (inverse * (w @ u + (feed / modes.weight)[:, None])) + ends[0]
+        force = -1.5 * u @ np.maximum(p, 0.0).sum(axis=0) * (2.0 / 400) * (2.0 * np.pi / 800)
+        assert_allclose(film.force(e, w), force, atol=1e-3 * np.linalg.norm(force))
 
 
 @pytest.mark.parametrize("name", ["cavitated solid", "cavitated"])
@@ -369,9 +377,7 @@ def test_cavitated_film_has_no_damping_matrix_at_rest(name):
         FILMS[name].jacobian(np.array([0.3, 0.0]), np.zeros(2))
 
 
-def test_clipped_film_at_rest_has_a_derivative_only_with_feed():
-    with pytest.raises(UndefinedDerivativeError, match="without feed"):
-        UNFED["clipped"].jacobian(np.array([0.3, 0.0]), np.zeros(2))
+def test_fed_film_at_rest_has_a_derivative():
     assert np.all(np.isfinite(FILMS["clipped"].jacobian(np.array([0.3, 0.0]), np.zeros(2))))
 
 

@@ -27,7 +27,7 @@ from rotorfilm import (
 )
 from rotorfilm.bearings import HalfSommerfeld, MapSqueeze, layer_modes
 from rotorfilm.bearings.damper import squeeze_map as squeeze_potential, squeeze_map as squeeze_table
-from rotorfilm.bearings.damper.squeeze_films import CavitatedSqueezeFilm, PorousLayer
+from rotorfilm.bearings.damper.squeeze_films import PorousLayer, short_squeeze_film
 from rotorfilm.bearings.damper.squeeze_map import CavitatedPotential
 
 LAYER = PorousLayer(
@@ -147,7 +147,7 @@ def test_damaged_map_on_disk_is_made_again(kept):
 @pytest.mark.parametrize("vented", [False, True])
 def test_porous_potential_becomes_short_with_second_order(thin, vented):
     layer = LAYER._replace(thin=thin, vented=vented)
-    short = CavitatedSqueezeFilm(layer_modes(layer))
+    short = short_squeeze_film(layer_modes(layer), cavitated=True)
     for eps, heading in ((0.5, 1.0), (0.8, 2.5)):
         w = np.array([np.cos(heading), np.sin(heading)])
         limit = 0.5 * short.force(np.array([eps, 0.0]), w) @ w
