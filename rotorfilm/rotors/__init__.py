@@ -52,6 +52,7 @@ if TYPE_CHECKING:
     )
     from .shaft_rotor import ShaftRotor as ShaftRotor
     from .skewed_collar import SkewedCollar
+    from .speed_input import SpeedInputRotor
     from .steady import SteadyRotor as SteadyRotor
     from .structure import FlexibleRotor as FlexibleRotor, require_flexible
 else:

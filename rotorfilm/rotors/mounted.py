@@ -34,6 +34,7 @@ from ..core.signals import PLANAR, Signal, indices, names
 from ..native.spec import HasKernel, NativeSpec
 from .profile import SpeedProfile
 from .rigid import RigidRotor, native_parameter
+from .speed_input import SpeedInputRotor
 from .structure import AroundRotor, FlexibleRotor, Operators, prefixed, station_names, unbalance_columns
 
 
@@ -248,28 +249,28 @@ class MountedRotor(AroundRotor):
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return dx/dt with the bearings' forces at this state; FilmContactError as the bearings raise it."""
-        whole, own, sensed = self._sensed(t, x)
+        whole, own, sensed = self._sensed(t, x, u)
         inputs = self._inputs(self._forces(t, own, self._pushes(t, whole, sensed), u), u)
         rates = [mount.rates(t, whole, sensed[mount.motion]) for mount in self.mounts]
         return np.concatenate([self.rotor.derivative(t, own, inputs), *rates])
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the outputs of the rotor, the bearings' forces, and their further outputs."""
-        whole, own, sensed = self._sensed(t, x)
+        whole, own, sensed = self._sensed(t, x, u)
         values = [mount.output(t, whole, sensed[mount.motion]) for mount in self.mounts]
         forces = self._forces(t, own, [v[: m.size] for m, v in zip(self.mounts, values, strict=True)], u)
         further = [value[mount.size :] for mount, value in zip(self.mounts, values, strict=True)]
         return np.concatenate([self.rotor.output(t, own, self._inputs(forces, u)), *forces, *further])
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
-        """Return the exact derivatives of rotor and bearings; the speed is held."""
-        whole, _, sensed = self._sensed(t, x)
+        """Return the exact derivatives of rotor and bearings; the speed is held unless it is an input."""
+        whole, _, sensed = self._sensed(t, x, u)
         parts = [mount.slopes(t, whole, sensed[mount.motion]) for mount in self.mounts]
         return self.joined(t, whole, u, parts)
 
     def joined(self, t: float, whole: Array, u: ArrayLike, parts: Sequence[Linearization]) -> Linearization:
         """Return the derivatives of rotor and bearings for given derivatives of the bearings."""
-        own, sensed = self._sensed(t, whole)[1:]
+        own, sensed = self._sensed(t, whole, u)[1:]
         inputs = self._inputs(self._forces(t, own, self._pushes(t, whole, sensed), u), u)
         rotor, masses = self.rotor.linearization(t, own, inputs), None
         if self._heavy:
@@ -292,11 +293,12 @@ class MountedRotor(AroundRotor):
             planes=self.planes,
         )
 
-    def _sensed(self, t: float, x: ArrayLike) -> tuple[Array, Array, Array]:
-        """Return the whole state, that of the rotor, and the outputs of the rotor."""
-        whole = np.asarray(x, dtype=float)
+    def _sensed(self, t: float, x: ArrayLike, u: ArrayLike) -> tuple[Array, Array, Array]:
+        """Return the whole state, that of the rotor, and the outputs of the rotor, which need no forces."""
+        whole, given = np.asarray(x, dtype=float), np.zeros(self._input_count)
+        given[list(self._free)] = np.asarray(u, dtype=float)
         own = whole[: self._split]
-        return whole, own, self.rotor.output(t, own, self._no_input)
+        return whole, own, self.rotor.output(t, own, given)
 
     def _pushes(self, t: float, whole: Array, sensed: Array) -> list[Array]:
         return [mount.push(t, whole, sensed[mount.motion]) for mount in self.mounts]
@@ -326,7 +328,7 @@ class MountedRotor(AroundRotor):
         return block_diagonal(found)
 
     def _inputs(self, forces: Sequence[Array], u: ArrayLike) -> Array:
-        whole = np.empty(len(self._no_input))
+        whole = np.empty(self._input_count)
         whole[list(self._free)] = np.asarray(u, dtype=float)
         for mount, force in zip(self.mounts, forces, strict=True):
             whole[mount.force] = force
@@ -343,8 +345,8 @@ class MountedRotor(AroundRotor):
         return len(self.rotor.states)
 
     @cached_property
-    def _no_input(self) -> Array:
-        return np.zeros(len(self.rotor.inputs))
+    def _input_count(self) -> int:
+        return len(self.rotor.inputs)
 
     @cached_property
     def _heavy(self) -> bool:
@@ -357,7 +359,7 @@ class MountedRotor(AroundRotor):
 
     @cached_property
     def _free(self) -> tuple[int, ...]:
-        return tuple(k for k in range(len(self._no_input)) if k not in self._taken)
+        return tuple(k for k in range(self._input_count) if k not in self._taken)
 
 
 def join(
@@ -372,7 +374,7 @@ def join(
     Parameters
     ----------
     rotor : Linearization
-        Rotor without feedthrough to the outputs that reactions take.
+        Rotor without feedthrough of the reactions' forces to the outputs that they take.
     mounts : sequence of Mount
     parts : sequence of Linearization
         Parts of the reactions, over what each feels.
@@ -390,22 +392,36 @@ def join(
     A, forces, further = _reacting(mounts, parts, rotor.C)
     taken, free, size = [k for mount in mounts for k in mount.force], list(free), len(rotor.A)
     push, load = rotor.B[:, taken], rotor.B[:, free]
-    driven = np.zeros((len(forces), len(free)))
+    inner, driven, beside = _driven(mounts, parts, rotor.D[:, free])
     if masses is not None:
         along = masses @ _velocities(rotor, mounts)
         joint = np.eye(len(masses)) + along @ push
         forces[:, :size] -= along @ rotor.A
         forces = np.asarray(np.linalg.solve(joint, forces), dtype=float)
-        driven = -np.asarray(np.linalg.solve(joint, along @ load), dtype=float)
+        driven = np.asarray(np.linalg.solve(joint, driven - along @ load), dtype=float)
     A[:size] = push @ forces
     A[:size, :size] += rotor.A
     seen = rotor.D[:, taken] @ forces
     seen[:, :size] += rotor.C
     return Linearization(
         A,
-        np.vstack([load + push @ driven, np.zeros((len(A) - size, len(free)))]),
+        np.vstack([load + push @ driven, inner]),
         np.vstack([seen, forces, further]),
-        np.vstack([rotor.D[:, free], driven, np.zeros((len(further), len(free)))]),
+        np.vstack([rotor.D[:, free], driven, beside]),
+    )
+
+
+def _driven(
+    mounts: Sequence[Mount], parts: Sequence[Linearization], through: Array
+) -> tuple[Array, Array, Array]:
+    """Return rates, forces and further outputs of all reactions by inputs of the rotor that they feel."""
+    none = np.zeros((0, through.shape[1]))
+    felt = [through[mount.motion] for mount in mounts]
+    seen = [part.D @ one for part, one in zip(parts, felt, strict=True)]
+    return (
+        np.concatenate([none, *(part.B @ one for part, one in zip(parts, felt, strict=True))]),
+        np.concatenate([none, *(rows[: mount.size] for mount, rows in zip(mounts, seen, strict=True))]),
+        np.concatenate([none, *(rows[mount.size :] for mount, rows in zip(mounts, seen, strict=True))]),
     )
 
 
@@ -495,6 +511,7 @@ KINDS = (
     "short_journal",
     "damper",
     "oil_damper",
+    "short_damper",
     "reynolds_journal",
     "pressure_dam",
     "lobed_journal",
@@ -517,7 +534,7 @@ def system_kernel(
     Parameters
     ----------
     rotor : Dynamic
-        A `FlexibleRotor` or a `RigidRotor`.
+        A `FlexibleRotor` or a `RigidRotor`, or one of them with its speed as an input.
     bearings : mapping of str to Reaction
         Bearings by station, at least one.
     carried, free : sequence of int
@@ -533,7 +550,9 @@ def system_kernel(
     if matrices is None or not specs or len(specs) < len(parts):
         return None
     operators, profile = matrices
-    speed = () if len(profile.times) > 1 else (native_parameter("constant_speed", profile.speeds[0]),)
+    constant = profile is not None and len(profile.times) == 1
+    speed = (native_parameter("constant_speed", profile.speeds[0]),) if profile and constant else ()
+    free = [k for k in free if k < operators.push.shape[1]]
     own = [prefixed(name, p) for name, spec in zip(bearings, specs, strict=True) for p in spec.parameters]
     places, sets = _distinct(specs)
     kinds = [KINDS.index(spec.kernel) for spec in specs]
@@ -553,15 +572,22 @@ def system_kernel(
         tables={
             **_matrices(operators, list(carried), list(free), list(motion)),
             **_unbalances(operators, planes, force),
-            "times": np.array(profile.times),
-            "speeds": np.array(profile.speeds),
+            **(
+                {}
+                if profile is None
+                else {name: np.array(getattr(profile, name)) for name in ("times", "speeds")}
+            ),
             "bearings": np.column_stack([kinds, places]).astype(float),
             **{f"{k}.{name}": table for k, spec in enumerate(sets) for name, table in spec.tables.items()},
         },
     )
 
 
-def _operators(rotor: Dynamic) -> tuple[Operators, SpeedProfile] | None:
+def _operators(rotor: Dynamic) -> tuple[Operators, SpeedProfile | None] | None:
+    """Return the equations of a rotor and its speed over time, None where the speed is an input."""
+    if isinstance(rotor, SpeedInputRotor):
+        found = _operators(rotor.rotor)
+        return found and (found[0], None)
     elastic = isinstance(rotor, FlexibleRotor) and rotor.structure.hysteresis is None
     if isinstance(rotor, FlexibleRotor | RigidRotor) and (elastic or type(rotor) is RigidRotor):
         return rotor.operators, rotor.profile

@@ -19,6 +19,7 @@ from ..rotors import (
     MountedRotor,
     Reduction,
     ShaftRotor,
+    SpeedInputRotor,
     Station,
     SteadyRotor,
     UnbalancePlane,
@@ -91,7 +92,7 @@ def export_scene(
         end = 2.0 * np.pi / (abs(scene.speed) or 1.0)
         step, files, parts = 0.01 * end, {"thrust": "thrust"}, {"thrust": thrust_models(scene)}
     else:
-        models = models_of(scene)
+        models = models_of(scene, "shaft", "thrust")
         files, parts = models.files, models.parts
         step, end = models.step, models.duration
     write_models(parts, folder, version, backend, platforms=platforms, step=step, end=end)
@@ -297,14 +298,16 @@ def export_machine_fmu(
     component: str = "machine",
     stop_time: float = 0.1,
     step_size: float = 1e-4,
+    speed_input: bool = False,
 ) -> MountedRotor:
     """Write a rotor with its bearings as one FMU, at rest in them at its speed.
 
     Outputs are the motions of its bearings and probes by their names, and the forces of the bearings.
-    Parameters are `constant_speed` [rad/s], fixed, and of each plane with an `Unbalance`, by its node k,
-    `plane_k_unbalance` [kg m] and `plane_k_unbalance_angle` [rad], tunable; an unbalance of 0 makes a plane
-    too. An FMU that is not compiled has no parameters, and the unbalances of the rotor. Inputs are forces in
-    the planes, `plane_k_force_x` and _y [N]. A plane is at a node without a bearing.
+    Parameters are `constant_speed` [rad/s], fixed, unless the speed is an input, and of each plane with an
+    `Unbalance`, by its node k, `plane_k_unbalance` [kg m] and `plane_k_unbalance_angle` [rad], tunable; an
+    unbalance of 0 makes a plane too. An FMU that is not compiled has no parameters, and the unbalances of the
+    rotor. Inputs are forces in the planes, `plane_k_force_x` and _y [N]. A plane is at a node without a
+    bearing.
 
     Parameters
     ----------
@@ -315,6 +318,9 @@ def export_machine_fmu(
         As in `export_rotor_fmu`.
     stop_time, step_size : float [s]
         As in `export_fmu`.
+    speed_input : bool
+        Whether `prescribed_speed` [rad/s] and `prescribed_acceleration` [rad/s2] are inputs, as in
+        `SpeedInputRotor`. The speed starts with that of the rotor.
 
     Returns
     -------
@@ -341,8 +347,10 @@ def export_machine_fmu(
     further = (Station(node=node, name=plane.station) for node, plane in zip(sums, planes, strict=True))
     whole = replace(rotor, stations=(*rotor.stations, *further))
     reduced = reduce_rotor(whole, frequency=frequency, tolerance=tolerance).rotor
-    resting, at = at_rest(reduced, bearings, float(reduced.profile.speed(0.0)))
-    model = mount(resting, from_shaft_rest(bearings, at))
+    speed = float(reduced.profile.speed(0.0))
+    resting, at = at_rest(reduced, bearings, speed)
+    turning = SpeedInputRotor(rotor=replace(resting, speed=speed)) if speed_input else resting
+    model = mount(turning, from_shaft_rest(bearings, at))
     if model.native() is not None:  # in Python the unbalances stay those of the rotor
         model = replace(model, planes=planes)
     export_fmu(
@@ -351,6 +359,7 @@ def export_machine_fmu(
         version,
         platforms=platforms,
         component=component,
+        start={"prescribed_speed": speed} if speed_input else None,
         stop_time=stop_time,
         step_size=step_size,
     )

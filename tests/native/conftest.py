@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from fmpy.fmi3 import FMU3Model, FMU3Slave
 
+from rotorfilm.fmu.export import as_exported
 from rotorfilm.fmu.native.native_backend import Export, native_model_variables
 from rotorfilm.native.library import library_path
 from rotorfilm.native.resource import FILE_NAME, carried_library, pack
@@ -93,6 +94,7 @@ class Folder(NamedTuple):
 
 def native_variables(model, spec, start):
     """Return time, parameters, inputs, outputs, states and derivatives of a model that is called m."""
+    model = as_exported(model)
     inputs = np.array([float(start.get(s.name, 0.0)) for s in model.inputs])
     return native_model_variables(Export(model, spec, "m", "", inputs, 1.0, "2.0", "host", "m"))
 

@@ -13,20 +13,24 @@ import pytest
 from rotorfilm import (
     BushReaction,
     BushWear,
+    FullFilm,
     Groove,
     JournalBearing,
     MapFilm,
+    PorousCage,
     PressureDamBearing,
     ReynoldsFilm,
     RigidRotor,
+    RigidShaft,
     SpeedProfile,
+    SqueezeFilmDamper,
     pressure_dam_pads,
 )
-from rotorfilm.bearings import LocalMelting, MapTable, f4k20_bush
+from rotorfilm.bearings import AxialFeed, LocalMelting, MapTable, f4k20_bush
 from rotorfilm.fmu.reference import LinearSystem
 from rotorfilm.native.film_kernels import periodic
 from rotorfilm.native.resource import FILE_NAME
-from rotorfilm.rotors import mount
+from rotorfilm.rotors import SpeedInputRotor, mount
 
 OPTIONS = ["-g1", "-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-DRF_MOST_STEPS=1000"]
 """Sanitizers, and few steps of an integration: one of extreme numbers takes as many as it may."""
@@ -59,6 +63,29 @@ def dam_bearing():
     return PressureDamBearing(
         radius=0.05, length=0.03, assembled_clearance=1e-4, viscosity=0.1, pads=pads, cells=(16, 8)
     )
+
+
+DAMPER = {"radius": 0.05, "length": 0.02, "clearance": 1e-4, "viscosity": 0.01}
+
+
+def fed_damper():
+    """Return a short damper with feed at its ends, whose film is clipped."""
+    feed = AxialFeed(start_pressure=2e4, end_pressure=1e4)
+    return SqueezeFilmDamper(**DAMPER, feed=feed)
+
+
+def porous_damper():
+    """Return a short damper with a porous cage, whose film is full."""
+    cage = PorousCage(thickness=2.5e-3, permeability=4e-13, vented=True, supply_pressure=1e4)
+    return SqueezeFilmDamper(**DAMPER, extent=FullFilm(), cage=cage)
+
+
+def driven_system():
+    """Return a rotor with its speed as an input, in a bearing and on a damper that adds mass."""
+    heavy = SqueezeFilmDamper(**DAMPER, density=800.0)
+    stations = (("left", -0.1), ("right", 0.1))
+    shaft = RigidShaft(mass=5.0, diametral_inertia=0.1, polar_inertia=0.05, speed=100.0, stations=stations)
+    return mount(SpeedInputRotor(rotor=shaft), {"left": small_bearing(), "right": heavy})
 
 
 class RoughGrooves(JournalBearing):
@@ -196,8 +223,8 @@ def test_no_misuse_and_no_damaged_file_breaks_an_instance(unzipped, stress, tmp_
     assert not fault(stress, token, "200", "--", "--", *maybe)
 
 
-@pytest.mark.parametrize("made", [grid_bearing, dam_bearing])
-def test_no_misuse_and_no_damaged_file_breaks_a_film_on_a_grid(made, unzipped, stress, tmp_path):
+@pytest.mark.parametrize("made", [grid_bearing, dam_bearing, fed_damper, porous_damper, driven_system])
+def test_no_misuse_and_no_damaged_file_breaks_a_film_or_a_machine(made, unzipped, stress, tmp_path):
     good = unzipped(made(), folder="grid", token="a token").resource
     content = good.read_bytes()
     maybe = [str(folder) for folder in resources(tmp_path, mutated(content, 60))]

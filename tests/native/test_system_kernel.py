@@ -16,6 +16,7 @@ from rotorfilm import (
     ReynoldsFilm,
     RigidRotor,
     ShortFilm,
+    ShortSqueeze,
     SpeedProfile,
     SplittingFilm,
     SqueezeFilmDamper,
@@ -23,7 +24,8 @@ from rotorfilm import (
     simulate,
     with_springs,
 )
-from rotorfilm.bearings import MapSqueeze
+from rotorfilm.analysis import rotor_equilibrium
+from rotorfilm.bearings import AxialFeed, MapSqueeze
 from rotorfilm.native.resource import carried_library
 from rotorfilm.rotors import (
     Disk,
@@ -32,6 +34,7 @@ from rotorfilm.rotors import (
     RigidShaft,
     ShaftElement,
     ShaftRotor,
+    SpeedInputRotor,
     Station,
     Unbalance,
     mount,
@@ -44,6 +47,7 @@ DAMPER = SqueezeFilmDamper(radius=0.05, length=0.02, clearance=1e-4, viscosity=0
 HEAVY = with_springs(replace(DAMPER, density=850.0), 1e6)
 SEALED = replace(DAMPER, density=850.0, extent=FullFilm(), film=FiniteSqueeze(), seals=EndSeal(leakage=2e-10))
 """It adds 35 kg."""
+FED = replace(DAMPER, film=ShortSqueeze(), feed=AxialFeed(start_pressure=2e4, end_pressure=1e4))
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
 RUN_UP = SpeedProfile((0.0, 0.01, 0.03), (100.0, 150.0, 120.0))
 
@@ -84,6 +88,11 @@ def systems():
         "damper": mount(reduced(RUN_UP), {"left": DAMPER, "right": BEARING}),
         "sealed damper": mount(RigidRotor(mass=2.0, speed=RUN_UP, unbalance=1e-5), {"": SEALED}),
         "two dampers": mount(shaft(150.0), {"left": SEALED, "right": HEAVY}),
+        "fed damper": mount(reduced(RUN_UP), {"left": FED, "right": BEARING}),
+        "speed input": mount(SpeedInputRotor(rotor=reduced(150.0)), {"right": WIDE}),
+        "speed input, two dampers": mount(
+            SpeedInputRotor(rotor=shaft(150.0)), {"left": SEALED, "right": HEAVY}
+        ),
     }
 
 
@@ -116,8 +125,9 @@ def test_directional_derivatives_are_those_of_python(unzipped, name):
     client = unzipped(system).open(FMU2Model).start()
     client.fmu.enterContinuousTimeMode()
     rng = np.random.default_rng(4)
-    x, u = random_state(system, rng), np.zeros(len(system.inputs))
+    x, u = random_state(system, rng), np.array([signal.nominal for signal in system.inputs])
     client.set_states(x)
+    client.set(**{signal.name: value for signal, value in zip(system.inputs, u, strict=True)})
     A, B, C, D = system.linearization(0.0, x, u)
     knowns = [f"state_{s.name}" for s in system.states] + [s.name for s in system.inputs]
     unknowns = [f"der(m.state_{s.name})" for s in system.states] + [s.name for s in system.outputs]
@@ -125,6 +135,52 @@ def test_directional_derivatives_are_those_of_python(unzipped, name):
     answer = client.differentiate(unknowns, knowns, seed)
     right = np.block([[A, B], [C, D]]) @ seed
     np.testing.assert_allclose(answer, right, rtol=1e-10, atol=1e-12 * np.abs(right).max())
+
+
+@pytest.mark.convergence
+@pytest.mark.parametrize("kind", [FMU2Slave, FMU3Slave])
+def test_a_machine_whose_speed_is_an_input_follows_it_as_a_rotor_with_that_profile(unzipped, kind):
+    """Held over each step, speed and acceleration in its middle: the error is of second order in the step."""
+    films, end = {"left": BEARING, "right": WIDE}, 0.03
+    rotor = replace(reduced(150.0), speed=100.0)
+    resting = rotor_equilibrium(rotor, films, 100.0).displacement
+    rotor = replace(rotor, initial=(*resting.tolist(), *[0.0] * len(resting)))
+    times = np.linspace(0.0, end, 3)
+    run = simulate(replace(rotor, speed=RUN_UP), films, duration=end, times=times, rtol=1e-10)
+    right = np.array([run[name][-1] for name in ("left_x", "left_y", "right_x", "right_y")])
+    system, errors = mount(SpeedInputRotor(rotor=rotor), films), []
+    for steps in (60, 120):
+        client = (
+            unzipped(system, start={"prescribed_speed": 100.0}, folder=str(steps))
+            .open(kind)
+            .start(tolerance=1e-8)
+        )
+        dt = end / steps
+        for k in range(steps):
+            middle = (k + 0.5) * dt
+            client.set(
+                prescribed_speed=RUN_UP.speed(middle), prescribed_acceleration=RUN_UP.acceleration(middle)
+            )
+            client.step(k * dt, dt)
+        assert client.get("speed") == pytest.approx(120.0, abs=1.0)
+        assert client.get("state_angle") == pytest.approx(RUN_UP.angle(end), rel=1e-9)
+        found = client.get("left_x", "left_y", "right_x", "right_y")
+        errors.append(np.abs(found - right).max() / BEARING.clearance)
+    assert errors[1] < 2e-4
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.1)
+
+
+def test_a_speed_input_without_its_acceleration_leaves_out_the_tangential_force():
+    rotor = RigidRotor(mass=2.0, speed=100.0, unbalance=1e-3, unbalance_angle=0.3)
+    model = SpeedInputRotor(rotor=rotor)
+    x, force = np.array([1e-5, 0.0, 0.0, 0.1, 2.0]), [3.0, 4.0]
+    given = replace(rotor, speed=SpeedProfile((0.0, 1.0), (0.0, 40.0)))
+    t = np.sqrt(2.0 / 20.0)  # the angle 2 rad
+    rates = model.derivative(0.0, x, [*force, 40.0 * t, 40.0])
+    np.testing.assert_allclose(rates[:4], given.derivative(t, x[:4], force), rtol=1e-12)
+    assert rates[4] == 40.0 * t
+    without = model.derivative(0.0, x, [*force, 40.0 * t, 0.0])
+    assert np.hypot(*(rates - without)[2:4]) == pytest.approx(1e-3 * 40.0 / 2.0)
 
 
 def reference(system, end, tolerance=1e-12):

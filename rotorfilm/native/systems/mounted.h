@@ -17,6 +17,8 @@ typedef struct rf_mounted {
     size_t n, bearings, inputs, sensed; /* n: coordinates */
     const double *steady, *spin, *push, *carry, *weight, *unbalance, *sense, *motion;
     rf_profile profile;
+    size_t driven; /* 1 where speed and angular acceleration are inputs, behind the others, and the angle is the last state */
+    double *turning; /* (n): accelerations by that angle, where a step was factorized */
     rf_mounted_bearing *bearing;
     const double *fixed, *planes; /* (n, 2), (n, 2 plane_count): of the unbalances that are no parameters; by forces */
     size_t plane_count;

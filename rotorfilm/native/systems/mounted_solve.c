@@ -85,6 +85,8 @@ void rf_mounted_solve(const rf_mounted *self, double *b)
     double *const forces = self->force, *const linear = self->moved + f; /* f of the 2f numbers of `moved` */
     if (self->masses)
         rf_mounted_accelerate(self, b);
+    for (size_t i = 0; self->driven && i < n; ++i)
+        b[n + i] += self->turning[i] * b[2 * n] / self->shift;
     solve_free(self, b);
     memset(self->moved, 0, 2 * f * sizeof *self->moved);
     rf_add_product(2 * f, 2 * n, 1.0, self->motion, b, self->moved);
@@ -97,4 +99,6 @@ void rf_mounted_solve(const rf_mounted *self, double *b)
     for (size_t k = 0; k < f; ++k)
         for (size_t i = 0; i < 2 * n; ++i)
             b[i] += linear[k] * self->response[2 * n * k + i];
+    if (self->driven)
+        b[2 * n] /= self->shift;
 }

@@ -12,6 +12,7 @@ static const rf_kernel_type *const KINDS[] = {
     &rf_short_journal_type,
     &rf_damper_type,
     &rf_oil_damper_type,
+    &rf_short_damper_type,
 #if !defined(RF_SUBSET) || (RF_SUBSET & RF_ROTORFILM_GRID_SYSTEMS)
     &rf_reynolds_journal_type,
     &rf_pressure_dam_type,
@@ -74,14 +75,15 @@ static int take_matrices(rf_mounted *self, const rf_tables *tables, rf_message *
                       && (self->planes = take(tables, "planes", n, 2 * self->plane_count, why)) != NULL
                       && (self->sense = take(tables, "sense", s, 2 * n, why)) != NULL
                       && (self->motion = take(tables, "motion", 4 * b, 2 * n, why)) != NULL;
-    return whole ? rf_take_profile(&self->profile, tables, why) : RF_INVALID;
+    self->driven = rf_seek_table(tables, "times") == NULL;
+    return !whole ? RF_INVALID : self->driven ? RF_OK : rf_take_profile(&self->profile, tables, why);
 }
 
 static int allocate(rf_mounted *self, rf_message *why)
 {
     const size_t n = self->n, b = self->bearings;
     double *at = self->numbers =
-        calloc(4 * b + 2 * b + 10 * b + 2 * b + 3 * n * n + 4 * n * b + 8 * b * b + 6 * n + 17 * b + 4 * b * b, sizeof *at);
+        calloc(4 * b + 2 * b + 10 * b + 2 * b + 3 * n * n + 4 * n * b + 8 * b * b + 7 * n + 17 * b + 4 * b * b, sizeof *at);
     if (!at)
         return rf_say(why, RF_MEMORY, "no memory for a system of %zu coordinates", n);
     self->moved = at, at += 4 * b;
@@ -98,6 +100,7 @@ static int allocate(rf_mounted *self, rf_message *why)
     self->mass_by = at, at += 12 * b;
     self->acceleration = at, at += 2 * b;
     self->joint = at, at += 4 * b * b;
+    self->turning = at, at += n;
     self->unbalance = self->turned = at;
     memcpy(self->turned, self->fixed, 2 * n * sizeof *at);
     return RF_OK;
@@ -168,8 +171,8 @@ rf_mounted *rf_mounted_create(const rf_tables *tables, rf_sizes *sizes, rf_messa
         return NULL;
     }
     sizes->parameters += (self->profile.points == 1) + 2 * self->plane_count;
-    sizes->inputs = self->inputs;
+    sizes->inputs = self->inputs + 2 * self->driven;
     sizes->outputs = self->sensed + 1 + 2 * self->bearings + 3 * self->masses;
-    sizes->states = 2 * self->n;
+    sizes->states = 2 * self->n + self->driven;
     return self;
 }
