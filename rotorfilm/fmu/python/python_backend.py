@@ -152,6 +152,7 @@ SLAVE = f"{PACKAGE}.fmu.python.slave"
 
 LIBRARY = {
     f"{PACKAGE}.native",
+    f"{PACKAGE}.bearings.damper.squeeze_films",
     f"{PACKAGE}.bearings.films.mass_conserving_steps",
     f"{PACKAGE}.bearings.rolling.ball_element",
     f"{PACKAGE}.bearings.pads.tilting_bearing",
