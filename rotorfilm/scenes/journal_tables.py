@@ -459,7 +459,7 @@ def film_remarks(
 
     Of a bearing whose oil warms it is said of the film at its temperature, and heat is not left out.
     """
-    remarks = remarks_of("hot", "journal")
+    remarks = remarks_of("hot", "journal", "thin_film")
     film: Any = replace(bearing, cells=CONSERVED) if isinstance(bearing, JFOFilm) else None
     own: Any = bearing if film is None else film.bearing
     if own.is_warming:

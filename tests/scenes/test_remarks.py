@@ -21,7 +21,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 def journal():
     scene = bundled_scene()
     at = scene.bearing, scene.lubricant.properties, scene.speed, scene.static_load
-    return remarks_of("journal"), journal_remarks.journal_numbers(*at)
+    return remarks_of("journal", "thin_film"), journal_remarks.journal_numbers(*at)
 
 
 def contact():
