@@ -28,12 +28,14 @@ from ..core.errors import (
 from ..core.inputs import arguments
 from ..core.limits import STEPS as MOST_STEPS, TURNS, require_at_most
 from ..core.model import Array, Dynamic, breakpoints
-from ..core.port import is_constant, static_slopes
+from ..core.port import freedoms_of, is_constant, static_slopes
 from ..core.results import Trajectory
 from ..core.signals import indices, names, units
 from ..native.library import loops
 from ..native.structs import constant, structure
 from ..rotors import MountedRotor, SpeedProfile
+from ..rotors.structure import prefixed
+from .bearing_forces import bearing_forces
 from .compiled_rotor import (
     GOOD_CONDITION,
     GOOD_SIZE,
@@ -45,14 +47,12 @@ from .compiled_rotor import (
     journal_rows,
     modal_rotor,
     modes,
-    raise_foreign,
     spin_rates,
     starts,
     state_matrices,
     take_apart,
-    warn_beyond,
-    warn_of_thin_films,
 )
+from .force_calls import raise_foreign, warn_beyond, warn_of_thin_films
 from .threads import one_blas_thread
 
 LONGEST_TURN = 1.0
@@ -93,9 +93,9 @@ def simulate_rotor(
     Parameters
     ----------
     mounted : MountedRotor
-        Mounted rotor from `mount`, with a bearing without states in at least one station, and without free
-        force inputs. Its bearings react to x and y, or are a `MomentCarryingJournal`. Its speed may be a
-        profile.
+        Mounted rotor from `mount`, with a bearing in at least one station, and without free force inputs. Its
+        bearings react to x and y, or are a `MomentCarryingJournal`, and have no states unless they are
+        linear, as a `FrequencyDependentReaction`. Its speed may be a profile.
     duration : float [s]
     samples : int
         Number of samples at equal distance, from 0 to `duration` inclusive.
@@ -157,7 +157,7 @@ def _verified(
     dense = np.union1d(grid, np.linspace(0.0, duration, CHECKED))
     work: Counter[str] = Counter()
     for mounted, state, neglected in starts:
-        parts = take_apart(mounted, tilts=True)
+        parts = take_apart(mounted, over_time=True)
         run, states, failure = run_of(mounted, state, parts, grid if neglected is None else dense)
         work.update(run.work)
         if neglected is None or neglected.largest(run, states) <= condensation:
@@ -212,19 +212,18 @@ def _trajectory(
     rotor = mounted.bare
     # Displacements and rates are linear in the state, the last output is the speed.
     rows = rotor.linearization(0.0, rotor.initial_state, np.zeros(len(rotor.inputs))).C
-    outputs = rows @ states.T
+    outputs = rows @ states[:, : rows.shape[1]].T
     steady = len(set(parts.profile.speeds)) == 1
     outputs[-1] = parts.profile.speeds[0] if steady else [parts.profile.speed(t) for t in time]
     signals = dict(zip(names(rotor.outputs), outputs, strict=True))
-    for name, bearing in zip(parts.names, parts.bearings, strict=True):
-        prefix = f"{name}_" if name else ""
-        *motion, _ = (signals[prefix + key.name] if key.name != "speed" else 0.0 for key in bearing.inputs)
-        half = len(motion) // 2
-        force = bearing.force(np.stack(motion[:half]), np.stack(motion[half:]), signals["speed"])
-        for out, row in zip(bearing.outputs, force, strict=False):
-            signals[prefix + out.name] = row
-    known = {**dict.fromkeys(signals, "N"), **units(rotor.outputs)}
-    return Trajectory(time=time, signals=signals, work=work, units=known)
+    shown = list(rotor.outputs)
+    found = bearing_forces(parts, time, states, outputs[-1])
+    for name, bearing, rows in zip(parts.names, parts.bearings, found, strict=False):  # not for a crack
+        further = bearing.outputs if bearing.states else bearing.outputs[: len(freedoms_of(bearing))]
+        known = [prefixed(name, signal) for signal in (*further, *bearing.states)]
+        signals |= zip((signal.name for signal in known), rows, strict=True)
+        shown += known
+    return Trajectory(time=time, signals=signals, work=work, units=units(shown))
 
 
 # A rotor on springs and dampers at constant speed: its motion is known at any time without a step.
@@ -237,14 +236,17 @@ def linear_states(parts: Parts, state: Array, grid: Array) -> Array | None:
     the unbalance. None where speed or bearings change, or the modes do not say the motion to 1e-9.
     """
     steady = parts.excited is None and len(set(parts.profile.speeds)) == 1
-    if not steady or not all(map(is_constant, parts.bearings)):
+    if not steady or not all(is_constant(one) or parts.is_linear(one) for one in parts.bearings):
         return None
     speed, none = parts.speed, np.zeros(2)
     A, B, weight = state_matrices(parts, speed)
-    slopes = [static_slopes(bearing, none, none, speed)[:, :4] for bearing in parts.bearings]
+    slopes = [
+        np.zeros((2, 4)) if parts.is_linear(bearing) else static_slopes(bearing, none, none, speed)[:, :4]
+        for bearing in parts.bearings
+    ]
     A = A + B[:, :-2] @ (block_diag(*slopes) @ journal_rows(parts))
     turn = abs(speed)
-    values, shapes, inverse, condition = modes(A, np.repeat([1.0, turn or 1.0], len(A) // 2))
+    values, shapes, inverse, condition = modes(A, parts.scale(turn or 1.0))
     if not condition < GOOD_CONDITION * max(1.0, len(A) / GOOD_SIZE) ** 2:
         return None
     turning = B[:, -2:] @ (speed**2 * np.array([1.0, -1.0j * np.sign(speed)]))
@@ -306,22 +308,33 @@ class ModalArrays(NamedTuple):
     Attributes
     ----------
     values, push, sense : ndarray of complex
-        Values, push and sense as for a `ModalRotor`.
+        Values, push and sense as for a `ModalRotor`; where a bearing adds a mass, `sense` goes on with ax, ay
+        of each journal.
+    direct : ndarray, shape (n_rows, n_channels), or None
+        These accelerations per force at the same moment; None without.
     """
 
     values: Complex
     push: Complex
     sense: Complex
+    direct: Array | None
 
     @classmethod
     def of(cls, modal: ModalRotor) -> ModalArrays:
         """Return those of a rotor."""
-        rows = modal.values, modal.push, modal.sense
-        return cls(*(np.ascontiguousarray(row, dtype=complex) for row in rows))
+        sense, direct = modal.sense, None
+        if modal.is_heavy:
+            rates = sense.reshape(-1, 2, 2, len(modal.values))[:, 1].reshape(-1, len(modal.values))
+            direct = np.vstack([np.zeros((len(sense), modal.push.shape[1])), (rates @ modal.push).real])
+            sense = np.vstack([sense, rates * modal.values])
+        values, push, sense = (
+            np.ascontiguousarray(row, dtype=complex) for row in (modal.values, modal.push, sense)
+        )
+        return cls(values, push, sense, direct)
 
     def struct(self) -> Any:
         """Return them as the C library reads them, while this object lives."""
-        places = (numbers.ctypes.data for numbers in self)
+        places = (None if numbers is None else numbers.ctypes.data for numbers in self)
         return structure("rf_modes")(*self.push.shape, len(self.sense), *places)
 
 
@@ -562,9 +575,11 @@ def rate_of(modal: ModalRotor) -> float:
 
 
 def journal_scales(modal: ModalRotor) -> Array:
-    """Return what makes x, y, vx, vy of each journal dimensionless, shape (4 n_bearings,)."""
-    rate = rate_of(modal)
-    return np.concatenate([np.array([1.0, 1.0, 1.0 / rate, 1.0 / rate]) / c for c in modal.parts.lengths])
+    """Return what makes x, y, vx, vy of each journal dimensionless, and 0 for accelerations and a crack."""
+    rate, lengths = rate_of(modal), modal.parts.lengths.copy()
+    lengths[len(modal.parts.names) * modal.parts.points :] = math.inf
+    motion = [np.array([1.0, 1.0, 1.0 / rate, 1.0 / rate]) / c for c in lengths]
+    return np.concatenate([*motion, np.zeros(2 * len(lengths) * modal.is_heavy)])
 
 
 # A run of a rotor whose speed may change its gyroscopic effect and rotating damping: march after march.

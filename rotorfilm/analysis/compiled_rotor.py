@@ -13,38 +13,32 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from ctypes import CFUNCTYPE, POINTER, byref, c_double, c_int, c_void_p, cast
+from ctypes import byref
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from ..core.errors import (
     ConvergenceError,
-    FilmContactError,
     InputError,
-    RotorfilmError,
-    UndefinedDerivativeError,
-    warn_user,
 )
-from ..core.model import Array, Dynamic
+from ..core.model import Array, Dynamic, Linearization
 from ..core.port import (
-    clearance_of,
     compiled_force,
     freedoms_of,
     inertial,
-    minimum_film,
-    require_massless,
+    linear_system,
+    mass_of,
     require_reaction,
-    static_force,
-    static_slopes,
 )
 from ..core.results import Trajectory
 from ..core.signals import PLANAR
-from ..native import Status
 from ..native.film_call import MASSLESS, FilmCall
 from ..native.library import loops
 from ..native.structs import structure
 from ..rotors import (
+    CrackedRotor,
     FlexibleRotor,
     MountedRotor,
     RigidRotor,
@@ -56,112 +50,16 @@ from ..rotors.profile import Turning
 from ..rotors.structure import (
     NOMINAL_LENGTH,
     MatrixRotor,
+    Operators,
     Structure,
     freedom_rows,
     mean_plane,
     solved_equations,
     station_name,
 )
+from .force_calls import CrackForce, call_over_time, feels_tilt, film_call
 from .modal_reduction import Condensed, models
 from .rotor_matrices import FASTER, unbalanced
-
-# Forces behind addresses (`native.film_call`): a reaction without a compiled one is called back in Python,
-# slower, with the same result.
-
-
-_CALLBACK = CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double))
-
-
-def raise_foreign(calls: Iterable[FilmCall]) -> None:
-    """Raise what a force in Python raised that the loop around it could not: an error of its own, Ctrl-C."""
-    for call in calls:
-        if call.raised:
-            raise call.raised[0]
-
-
-def warn_beyond(calls: Iterable[FilmCall]) -> None:
-    """Warn that a journal went beyond the map of its film."""
-    how = " or ".join(dict.fromkeys(call.beyond for call in calls if call.beyond))
-    warn_user(f"a journal went beyond the map of its film; its force is {how}")
-
-
-THINNEST = 1e-7
-"""Least film [m] that separates the finest bearing surfaces, of a roughness of about 0.05 um each."""
-
-
-def warn_of_thin_films(films: Mapping[str, Any], run: Trajectory) -> None:
-    """Warn where a run has a film, by its station, that is thinner than surfaces are rough."""
-    for station, film in films.items():
-        place = [run.signals.get(station_name(station, name)) for name in freedoms_of(film)]
-        if any(row is None or not row.size for row in place) or not clearance_of(film) < math.inf:
-            continue
-        least = minimum_film(film, np.array(place))
-        if least[at := int(np.argmin(least))] < THINNEST:
-            warn_user(
-                f"the least film{f' of {station!r}' if station else ''} should be at least {THINNEST:g} m, "
-                "as thick as the finest surfaces are rough, got "
-                f"{least[at]:.3g} m at t = {run.time[at]:.6g} s: "
-                "real surfaces touch there, and the force of this smooth film is no prediction"
-            )
-
-
-def film_call(reaction: Any, *, tilts: bool = False) -> FilmCall:
-    """Return the compiled force of a reaction without states, one that calls back where it has none.
-
-    With `tilts` it may be that of a journal that feels its tilt.
-    """
-    require_massless("reaction", reaction)
-    if tilts and feels_tilt(reaction):
-        return reaction.tilted_call() or _called_back(reaction)
-    return compiled_force(reaction) or _called_back(reaction)
-
-
-def call_with_added_mass(reaction: Any) -> FilmCall:
-    """Return the compiled force of a reaction without states, with the mass that it adds.
-
-    Raises
-    ------
-    InputError
-        If it adds a mass that is not compiled.
-    """
-    if inertial(reaction) is None:
-        return film_call(reaction)
-    call: FilmCall | None = compiled_force(reaction)
-    if call is None or call.mass == MASSLESS:
-        raise InputError(
-            f"reaction must have its added mass in C here, as a damper on a map, got {reaction!r}"
-        )
-    return call
-
-
-def _called_back(reaction: Any) -> FilmCall:
-    raised: list[BaseException] = []
-    n = len(freedoms_of(reaction))
-
-    def answer(_: Any, state: Any, force: Any, jacobian: Any) -> int:
-        position, velocity, speed = np.array(state[:n]), np.array(state[n : 2 * n]), state[2 * n]
-        try:
-            for i, value in enumerate(static_force(reaction, position, velocity, speed).tolist()):
-                force[i] = value
-            slopes = static_slopes(reaction, position, velocity, speed)[:, : 2 * n + 1]
-            for i, value in enumerate(slopes.ravel().tolist()):
-                jacobian[i] = value
-        except FilmContactError:
-            return Status.AT_WALL
-        except UndefinedDerivativeError:
-            return Status.UNDEFINED
-        except RotorfilmError:
-            return Status.NOT_FINITE
-        except BaseException as error:
-            raised[:] = [error]
-            return Status.NOT_FINITE
-        return Status.OK
-
-    function = _CALLBACK(answer)
-    return FilmCall(
-        address=cast(function, c_void_p).value or 0, data=0, owner=(function, reaction), raised=raised
-    )
-
 
 # A rotor as the bearings see it: its linear part in modes, whatever its size, and the forces it feels.
 
@@ -180,6 +78,27 @@ It grows with the highest frequency of a shaft, which goes with the square of th
 LARGEST_CONDITION = 1e10
 
 
+class StationEquations(NamedTuple):
+    """A bearing that is part of the linear equations of its rotor, with its states behind those of the rotor.
+
+    Attributes
+    ----------
+    station : str
+    reaction : Any
+    system : Linearization
+        Rates of its states and forces over its states, and over x, y, vx, vy of its journal.
+    rows : ndarray, shape (2, N)
+        Displacement of its journal.
+    mass : ndarray, shape (2, 2) [kg]
+    """
+
+    station: str
+    reaction: Any
+    system: Linearization
+    rows: Array
+    mass: Array
+
+
 class Parts(NamedTuple):
     """A mounted rotor taken apart: matrices, speed, and bearings at some of the stations.
 
@@ -196,6 +115,10 @@ class Parts(NamedTuple):
         Times and excitation over them, as acceleration of the ground along x and y; None without.
     moved : ndarray, shape (N, m)
         Acceleration of the coordinates per excitation.
+    linear : tuple of StationEquations
+        Those bearings that are part of the linear equations: in C they have no force.
+    over_time : bool
+        Whether it is taken apart for a run over time.
     """
 
     structure: Structure
@@ -205,6 +128,8 @@ class Parts(NamedTuple):
     rows: Array
     excited: Array | None = None
     moved: Array = np.zeros((0, 0))
+    linear: tuple[StationEquations, ...] = ()
+    over_time: bool = False
 
     @property
     def points(self) -> int:
@@ -216,6 +141,28 @@ class Parts(NamedTuple):
         """Typical displacement of each point: the clearance, shape (points n_bearings,) [m]."""
         sizes = [bearing.clearance for bearing in self.bearings]
         return np.repeat([size if math.isfinite(size) else NOMINAL_LENGTH for size in sizes], self.points)
+
+    @property
+    def alone(self) -> Parts:
+        """The rotor by itself, on which all bearings act by their forces."""
+        return self._replace(linear=())
+
+    def is_linear(self, bearing: Any) -> bool:
+        """Return whether a bearing is part of the linear equations."""
+        return any(bearing is one.reaction for one in self.linear)
+
+    def call(self, bearing: Any) -> FilmCall:
+        """Return the force of one of the bearings in C."""
+        if isinstance(bearing, CrackForce):
+            return bearing.call()
+        if self.is_linear(bearing):
+            return FilmCall.of_numbers("rf_springs_at", np.zeros(8))
+        return call_over_time(bearing) if self.over_time else film_call(bearing)
+
+    def scale(self, rate: float) -> Array:
+        """Return typical sizes of the states of rotor and bearings, for a displacement of 1 m."""
+        inner = [signal.nominal / NOMINAL_LENGTH for one in self.linear for signal in one.reaction.states]
+        return np.concatenate([np.repeat([1.0, rate], len(self.structure.weight)), inner])
 
     @property
     def nominal_speed(self) -> float:
@@ -273,6 +220,11 @@ class ModalRotor(NamedTuple):
     condition: float
 
     @property
+    def is_heavy(self) -> bool:
+        """Whether a bearing adds a mass that its force in C has."""
+        return any(call.mass != MASSLESS for call in self.calls)
+
+    @property
     def journal_rest(self) -> Array:
         """x, y, vx, vy of each journal at `rest`, shape (4 n_bearings,)."""
         return journal_rows(self.parts) @ self.rest
@@ -285,11 +237,6 @@ class ModalRotor(NamedTuple):
         """Return the states of modal coordinates (n_modes, ...)."""
         rest = self.rest.reshape(-1, *[1] * (modal.ndim - 1))
         return np.asarray((self.shapes @ modal).real + rest)
-
-
-def feels_tilt(bearing: Any) -> bool:
-    """Return whether a bearing is a journal in C that feels its tilt."""
-    return hasattr(bearing, "tilted_call")
 
 
 def point_rows(bearing: Any) -> Array:
@@ -327,10 +274,11 @@ def point_forces(parts: Parts, run: Trajectory) -> list[Array]:
     return forces
 
 
-def take_apart(mounted: MountedRotor, *, tilts: bool = False) -> Parts:
+def take_apart(mounted: MountedRotor, *, over_time: bool = False) -> Parts:
     """Return structure, speed and bearings of a rotor that rests in bearings without states.
 
-    With `tilts` they may be journals that feel their tilt.
+    For a run over time they may be journals that feel their tilt, bearings that add mass, and linear ones
+    with states, and the rotor may have a crack.
 
     Raises
     ------
@@ -339,26 +287,49 @@ def take_apart(mounted: MountedRotor, *, tilts: bool = False) -> Parts:
     """
     found = mounted.all_bearings
     bare = mounted.bare
-    structure, profile = _structure(bare.rotor if isinstance(bare, TimeExcitedRotor) else bare)
+    around = (TimeExcitedRotor, CrackedRotor) if over_time else (TimeExcitedRotor,)
+    structure, profile = _structure(bare.rotor if isinstance(bare, around) else bare)
     names = [name for name in structure.stations if name in found]
     bearings = [found[name] for name in names]
     if not names:
         raise InputError("rotor must rest in at least one bearing: mount(rotor, {station: bearing})")
-    moving = [name for name in names if found[name].states]
+    linear = _linear_reactions(structure, profile, found) if over_time else ()
+    known = {one.station for one in linear}
+    moving = [name for name in names if found[name].states and name not in known]
     if moving:
         raise InputError(
             f"bearings must have no states of their own here, got some at the stations {moving}: "
             "simulate(rotor, bearings) takes them, and unbalance_response their small motion"
         )
-    tilted = tilts and any(feels_tilt(bearing) for bearing in bearings)
+    tilted = over_time and any(feels_tilt(bearing) for bearing in bearings)
+    cracked = [CrackForce(bare)] if isinstance(bare, CrackedRotor) else []
+    if tilted and (cracked or any(inertial(bearing) for bearing in bearings)):
+        raise InputError("rotor must have no crack and no added mass beside a journal that feels its tilt")
     for name in names:
         planar = not (tilted and feels_tilt(found[name]))
         require_reaction(f"bearings[{name!r}]", found[name], heavy=True, planar=planar)
-    rows = _rows(structure, names, bearings, tilted=tilted)
-    parts = Parts(structure, profile, tuple(bearings), tuple(names), rows)
+    rows = [_rows(structure, names, bearings, tilted=tilted), *(one.rotor.weakness[0] for one in cracked)]
+    every = *bearings, *cracked
+    parts = Parts(
+        structure, profile, every, tuple(names), np.concatenate(rows), linear=linear, over_time=over_time
+    )
     if isinstance(bare, TimeExcitedRotor):
         return parts._replace(excited=bare.rows, moved=bare.columns)
     return parts
+
+
+def _linear_reactions(
+    structure: Structure, profile: SpeedProfile, bearings: Mapping[str, Any]
+) -> tuple[StationEquations, ...]:
+    """Return bearings that become part of the linear equations, in the order of their states."""
+    every = []
+    for name, bearing in bearings.items():
+        system = linear_system(bearing, profile.speeds)
+        if system is not None:
+            still = np.zeros(2)
+            mass = mass_of(bearing, still, still, profile.speeds[0])
+            every.append(StationEquations(name, bearing, system, freedom_rows(structure, name), mass))
+    return tuple(every)
 
 
 def _structure(rotor: Dynamic) -> tuple[Structure, SpeedProfile]:
@@ -377,26 +348,62 @@ def _structure(rotor: Dynamic) -> tuple[Structure, SpeedProfile]:
 def journal_rows(parts: Parts) -> Array:
     """Return the rows that make x, y, vx, vy of each journal out of (q, q'), shape (4 n_bearings, 2 N)."""
     count, size = parts.rows.shape
-    rows = np.zeros((count // 2, 4, 2 * size))
-    rows[:, :2, :size] = rows[:, 2:, size:] = parts.rows.reshape(-1, 2, size)
-    return rows.reshape(2 * count, 2 * size)
+    width = len(parts.scale(1.0))
+    rows = np.zeros((count // 2, 4, width))
+    rows[:, :2, :size] = rows[:, 2:, size : 2 * size] = parts.rows.reshape(-1, 2, size)
+    return rows.reshape(2 * count, width)
+
+
+def equations(parts: Parts) -> Operators:
+    """Return the equations of a rotor with its linear bearings; `push` is that on the journals."""
+    structure, n = parts.structure, len(parts.structure.weight)
+    mass = structure.mass + sum(one.rows.T @ one.mass @ one.rows for one in parts.linear)
+    model = solved_equations(structure._replace(mass=mass))
+    if len(parts.rows) == 2 * len(parts.names):
+        push = model.push[
+            :, [2 * structure.stations.index(name) + axis for name in parts.names for axis in range(2)]
+        ]
+    else:
+        push = np.vstack([np.zeros_like(parts.rows.T), np.linalg.solve(mass, parts.rows.T)])
+    further = sum(len(one.system.A) for one in parts.linear)
+    steady = np.pad(model.steady, (0, further))
+    first = 2 * n
+    for one in parts.linear:
+        inner = slice(first, first := first + len(one.system.A))
+        seen, lift = block_diag(one.rows, one.rows), np.linalg.solve(mass, one.rows.T)
+        steady[n : 2 * n, : 2 * n] += lift @ one.system.D @ seen
+        steady[n : 2 * n, inner] = lift @ one.system.C
+        steady[inner, : 2 * n], steady[inner, inner] = one.system.B @ seen, one.system.A
+    below = (0, further), (0, 0)
+    return Operators(
+        steady=steady,
+        by_speed=np.pad(model.by_speed, (0, further)),
+        push=np.pad(push, below),
+        weight=np.pad(model.weight, (0, further)),
+        unbalance=np.pad(model.unbalance, below),
+        sense=model.sense,
+    )
 
 
 def state_matrices(parts: Parts, speed: float) -> tuple[Array, Array, Array]:
     """Return A (2 N, 2 N) without films, B (2 N, 2 n_bearings + 2), the weight's acceleration (2 N,)."""
-    model = solved_equations(parts.structure)
-    places = [2 * parts.structure.stations.index(name) + axis for name in parts.names for axis in range(2)]
-    forces = model.push[:, places]
-    if parts.points > 1:
-        forces = np.vstack([np.zeros_like(parts.rows.T), np.linalg.solve(parts.structure.mass, parts.rows.T)])
-    pushes = [forces, model.unbalance]
+    model = equations(parts)
+    pushes = [model.push, model.unbalance]
     if parts.excited is not None:
-        pushes.append(np.vstack([np.zeros_like(parts.moved), parts.moved]))
+        moved = np.vstack([np.zeros_like(parts.moved), parts.moved])
+        pushes.append(np.pad(moved, ((0, len(model.weight) - len(moved)), (0, 0))))
     return (
         model.steady + speed * model.by_speed,
         np.hstack(pushes),
         model.weight,
     )
+
+
+def turning_pairs(parts: Parts, time: Array) -> Array:
+    """Return the pairs that an unbalance makes forces of, at some times [s], shape (n_times, 2)."""
+    shaft = Turning()
+    shaft.speed = parts.profile
+    return np.array([shaft.rotating(t) for t in time]).reshape(-1, 2)
 
 
 def spin_rates(modal: ModalRotor) -> tuple[Array, Array]:
@@ -409,7 +416,7 @@ def spin_rates(modal: ModalRotor) -> tuple[Array, Array]:
     rest : ndarray, shape (2 n_modes,)
         At the rest.
     """
-    by_speed = modal.inverse @ solved_equations(modal.parts.structure).by_speed
+    by_speed = modal.inverse @ equations(modal.parts).by_speed
     seen, rest = by_speed @ np.hstack([modal.shapes.real, -modal.shapes.imag]), by_speed @ modal.rest
     return np.vstack([seen.real, seen.imag]), np.concatenate([rest.real, rest.imag])
 
@@ -424,12 +431,13 @@ def modal_rotor(parts: Parts, speed: float) -> ModalRotor:
     """
     A, B, weight = state_matrices(parts, speed)
     stiffness, rate = _natural_support(parts, speed)
+    seen = journal_rows(parts).reshape(-1, 2, 2, len(A)).swapaxes(1, 2).reshape(-1, 2, len(A))
     best: tuple[tuple[Complex, Complex, Complex, float], Array, Array, Array] | None = None
     for spring, damper in SUPPORTS:
         K0 = spring * np.outer(stiffness, (1.0, 1.3)).ravel()
         C0 = damper / spring * K0 / rate
-        shifted = A - B[:, : len(K0)] @ np.hstack([K0[:, None] * parts.rows, C0[:, None] * parts.rows])
-        found = modes(shifted, np.repeat([1.0, rate], len(A) // 2))
+        shifted = A - B[:, : len(K0)] @ (K0[:, None] * seen[:, 0] + C0[:, None] * seen[:, 1])
+        found = modes(shifted, parts.scale(rate))
         if best is None or found[3] < best[0][3]:
             best = found, K0, C0, shifted
         if found[3] < GOOD_CONDITION * max(1.0, len(A) / GOOD_SIZE) ** 2:
@@ -448,7 +456,7 @@ def modal_rotor(parts: Parts, speed: float) -> ModalRotor:
         rest=np.asarray(-np.linalg.solve(shifted, weight)),
         spring=K0,
         damper=C0,
-        calls=tuple(film_call(one, tilts=parts.points > 1) for one in parts.bearings),
+        calls=tuple(map(parts.call, parts.bearings)),
         condition=condition,
     )
 
@@ -462,6 +470,8 @@ def _natural_support(parts: Parts, speed: float) -> tuple[Array, float]:
     stiffness = load / parts.lengths + 0.01 * mass * speed**2
     if not np.all(stiffness > 0.0):
         stiffness = np.full(count, float(np.abs(s.stiffness).max()) or 1.0)
+    for k, bearing in enumerate(parts.bearings):
+        stiffness[k] *= not isinstance(bearing, CrackForce)
     return stiffness, abs(speed) or math.sqrt(float(stiffness.max()) / mass)
 
 
@@ -513,6 +523,8 @@ class JournalFilms(NamedTuple):
         Eccentricities at which a journal counts as touching; infinite without a wall.
     arms : ndarray, shape (n / points,) [m]
         Of each journal's points; 0 where it feels no tilt.
+    masses, of_masses : ndarray of addresses, shape (n,), or None
+        Of the functions of added masses, and of what they take first; None where no bearing adds any.
     """
 
     films: np.ndarray
@@ -523,6 +535,8 @@ class JournalFilms(NamedTuple):
     lengths: Array
     walls: Array
     arms: Array
+    masses: np.ndarray | None = None
+    of_masses: np.ndarray | None = None
 
     @classmethod
     def of_rotor(cls, modal: ModalRotor, *, absolute: bool = False) -> JournalFilms:
@@ -534,12 +548,15 @@ class JournalFilms(NamedTuple):
         walls = (1.0 - CONTACT_GAP) * np.repeat(sizes, parts.points)
         arms = np.array([one.arm if feels_tilt(one) else 0.0 for one in parts.bearings])
         rows = rest, modal.spring, modal.damper, parts.lengths, walls, arms
-        return cls(*map(np.ascontiguousarray, (*addresses, *rows)))
+        masses = np.array([call.mass for call in modal.calls], dtype=np.uintp).T
+        heavy = map(np.ascontiguousarray, masses) if modal.is_heavy else (None, None)
+        return cls(*map(np.ascontiguousarray, (*addresses, *rows)), *heavy)
 
     def struct(self) -> Any:
         """Return them as the C library reads them, while this object lives."""
         sizes = len(self.lengths), len(self.lengths) // len(self.arms)
-        return structure("rf_journals")(*sizes, *(numbers.ctypes.data for numbers in self))
+        places = (None if numbers is None else numbers.ctypes.data for numbers in self)
+        return structure("rf_journals")(*sizes, *places)
 
     def forces(self, motion: Array, speed: float) -> tuple[int, Array, Array]:
         """Return a status, forces of films and springs (2 n, samples), and slopes (2 n, 4, samples).
@@ -572,11 +589,11 @@ def compiled_form(rotor: Dynamic, reaction: Any) -> MountedRotor | None:
 
     It takes it where
 
-    - each bearing has no states, adds no mass, and has a force in the C library. It is a journal bearing or a
-      damper whose film has a kernel (map, short film, grooved map, two-dimensional film), a linear one, or
-      one of these beside springs;
+    - each bearing is linear, also with states, or adds a mass, or has a force in the C library. The last is a
+      journal bearing or a damper whose film has a kernel (map, short film, grooved map, two-dimensional
+      film), or one of these beside springs;
     - the rotor is a `RigidRotor` or a `FlexibleRotor`, mounted or not, whose equations no subclass has
-      changed, without a loss factor; on ground that shakes too.
+      changed, without a loss factor; on ground that shakes, or with a crack too.
 
     Parameters
     ----------
@@ -585,13 +602,13 @@ def compiled_form(rotor: Dynamic, reaction: Any) -> MountedRotor | None:
     reaction : Reaction
         The bearing of that.
     """
-    if not is_linear(rotor) or not _is_compiled(reaction):
+    if not is_linear(rotor, over_time=True) or not _is_compiled(reaction):
         return None
     mounted = mount(rotor, {"": reaction})
-    if not all(map(_is_compiled, mounted.all_bearings.values())):
+    if not all(map(_is_compiled, mounted.all_bearings.values())) or not _in_order(rotor, [reaction]):
         return None
     try:
-        take_apart(mounted)
+        take_apart(mounted, over_time=True)
     except InputError:
         return None
     return mounted
@@ -600,24 +617,52 @@ def compiled_form(rotor: Dynamic, reaction: Any) -> MountedRotor | None:
 def takes_forces(rotor: Dynamic, bearings: Iterable[Any]) -> bool:
     """Return whether `simulate_rotor` takes a rotor on bearings by station, those in Python too.
 
-    It takes the linear rotors of `compiled_form`, on bearings without states and added mass.
+    It takes the linear rotors of `compiled_form`, on linear bearings, and others without states.
     """
+    own = tuple(bearings)
     mounted = rotor.all_bearings.values() if isinstance(rotor, MountedRotor) else ()
-    every = (*bearings, *mounted)
-    massless = all(not film.states and inertial(film) is None for film in every)
+    every = (*own, *mounted)
+    if not is_linear(rotor, over_time=True) or not _in_order(rotor, own):
+        return False
+    bare, cracked = _bare(rotor)
+    still = all(not film.states or linear_system(film, bare.profile.speeds) is not None for film in every)
     planar = all(freedoms_of(film) == PLANAR or feels_tilt(film) for film in every)
-    return massless and planar and is_linear(rotor)
+    tilted = any(map(feels_tilt, every))
+    heavy = any(inertial(film) is not None for film in every)
+    return still and planar and not (tilted and (cracked or heavy))
 
 
 def _is_compiled(bearing: Any) -> bool:
-    planar = freedoms_of(bearing) == PLANAR
-    return planar and inertial(bearing) is None and compiled_force(bearing) is not None
+    if freedoms_of(bearing) != PLANAR:
+        return False
+    fast = hasattr(bearing, "linear_system") or inertial(bearing) is not None
+    return fast or compiled_force(bearing) is not None
 
 
-def is_linear(rotor: Dynamic) -> bool:
-    """Return whether a rotor, in bearings or not, has the equations of its matrices."""
+def _in_order(rotor: Dynamic, bearings: Iterable[Any]) -> bool:
+    """Return whether all bearings with states were mounted in one go, so that their order is known."""
+    levels, level = [any(bearing.states for bearing in bearings)], rotor
+    while isinstance(level, MountedRotor):
+        levels.append(any(bearing.states for bearing in level.bearings))
+        level = level.rotor
+    return sum(levels) <= 1
+
+
+def _bare(rotor: Dynamic) -> tuple[Any, bool]:
+    """Return a rotor without its bearings, what excites it and its crack, and whether it has one."""
     bare = rotor.bare if isinstance(rotor, MountedRotor) else rotor
-    bare = bare.rotor if isinstance(bare, TimeExcitedRotor) else bare
+    cracked = type(bare) is CrackedRotor
+    return (bare.rotor if cracked or isinstance(bare, TimeExcitedRotor) else bare), cracked
+
+
+def is_linear(rotor: Dynamic, *, over_time: bool = False) -> bool:
+    """Return whether a rotor, in bearings or not, has the equations of its matrices.
+
+    In a run over time it may have a crack.
+    """
+    bare, cracked = _bare(rotor)
+    if cracked and not over_time:
+        return False
     base = next((kind for kind in (RigidRotor, FlexibleRotor) if isinstance(bare, kind)), None)
     if isinstance(bare, FlexibleRotor) and bare.assembly.others:
         return False
@@ -648,7 +693,7 @@ def starts(
                 break
             small = mount(MatrixRotor(rotor, model.structure), mounted.all_bearings)
             begun = _within(model, state)
-            yield small, begun, neglected_motion(model, take_apart(small, tilts=True), state, begun)
+            yield small, begun, neglected_motion(model, take_apart(small, over_time=True), state, begun)
     yield mounted, state, None
 
 
@@ -656,7 +701,9 @@ def _within(model: Condensed, state: Array) -> Array:
     """Return what of a state (2 N,) the shapes have, which are of unit mass."""
     assert model.space is not None
     mass, shapes = mean_plane(model.whole.mass), model.space.shapes
-    return np.concatenate([shapes.T @ (mass @ part) for part in np.split(state, 4)])
+    count = 2 * len(model.whole.weight)
+    parts = np.split(state[:count], 4)
+    return np.concatenate([*(shapes.T @ (mass @ part) for part in parts), state[count:]])
 
 
 class NeglectedMotion(NamedTuple):
@@ -695,11 +742,9 @@ class NeglectedMotion(NamedTuple):
         parts, time = self.parts, run.time
         profile = parts.profile
         speed = np.array([profile.speed(t) for t in time])[:, None]
-        shaft = Turning()
-        shaft.speed = profile
-        turning = np.array([shaft.rotating(t) for t in time]).reshape(-1, 2)
-        forces = np.column_stack([*point_forces(parts, run), turning, np.ones(len(time))])
-        steady, push, weight = state_matrices(parts, 0.0)
+        forces = np.column_stack([*point_forces(parts, run), turning_pairs(parts, time), np.ones(len(time))])
+        steady, push, weight = state_matrices(parts.alone, 0.0)
+        states = states[:, : len(steady)]
         place, velocity = np.hsplit(states, 2)
         pushed = forces @ np.column_stack([push, weight]).T
         by_speed = solved_equations(parts.structure).by_speed
@@ -730,7 +775,8 @@ def neglected_motion(model: Condensed, parts: Parts, state: Array, begun: Array)
     left = [unbalanced(part, shapes, heavy) for part in (journals.T, np.hstack(columns))]
     found = left[0].T @ model.answer(left[1])
     split = len(matrices) * shapes.shape[1]
-    missing = zip(np.split(state, 2), np.split(begun, 2), strict=True)
+    ends = 2 * len(whole.weight), 2 * shapes.shape[1]
+    missing = zip(np.split(state[: ends[0]], 2), np.split(begun[: ends[1]], 2), strict=True)
     place, velocity = (journals @ (full - model.lifted(some)) for full, some in missing)
     size = np.hypot(*place.reshape(-1, 2).T) + np.hypot(*velocity.reshape(-1, 2).T) / model.space.cut
     return NeglectedMotion(parts, found[:, :split], found[:, split:], size)

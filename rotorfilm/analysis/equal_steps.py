@@ -16,7 +16,7 @@ from ..core.port import force_along, has_wall, inertial
 from ..native import Status
 from ..native.library import loops
 from ..native.structs import structure
-from .compiled_rotor import call_with_added_mass, raise_foreign, warn_beyond
+from .force_calls import call_with_added_mass, raise_foreign, warn_beyond
 
 ORDER = 2
 """Of the average acceleration in the step."""

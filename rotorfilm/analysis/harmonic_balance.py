@@ -27,7 +27,8 @@ from ..core.results import Trajectory
 from ..native import Status
 from ..rotors import RigidRotor
 from ..rotors.structure import NOMINAL_LENGTH
-from .compiled_rotor import Complex, JournalFilms, ModalRotor, raise_foreign
+from .compiled_rotor import Complex, JournalFilms, ModalRotor
+from .force_calls import raise_foreign
 
 OVERSAMPLING = 4
 """Samples over an orbit per harmonic."""

@@ -48,7 +48,8 @@ from ..rotors import ForcedRotor, MountedRotor, ShaftRotor, mount
 from ..rotors.mounted import Mount, wired
 from ..rotors.structure import prefixed, station_names
 from .compiled_march import require_duration, require_longest_step, sample_times, simulate_rotor
-from .compiled_rotor import CONTACT_GAP, compiled_form, takes_forces, warn_of_thin_films
+from .compiled_rotor import CONTACT_GAP, compiled_form, takes_forces
+from .force_calls import warn_of_thin_films
 from .rotor_equilibrium import rotor_equilibrium
 from .stepped_run import simulate_steps
 from .threads import one_blas_thread
@@ -139,7 +140,14 @@ def simulate(
     films: dict[str, Any] = {name: in_time(film) for name, film in given.items()}
     in_c = partial(simulate_rotor, duration=duration, times=grid, rtol=rtol, max_step=max_step)
     if by_station and method is None and takes_forces(rotor, films.values()):
-        return in_c(mount(rotor, films), initial_state=initial_state)
+        mounted = mount(rotor, films)
+        for film in films.values():
+            require_turning(film, rotor)
+        try:
+            return in_c(mounted, initial_state=initial_state)
+        except ConvergenceError as failure:
+            if failure.partial is not None or not any(film.states for film in films.values()):
+                raise
     system = Coupled(rotor, films)
     for film in films.values():
         require_turning(film, rotor)

@@ -351,6 +351,15 @@ class FrequencyDependentReaction:
             self.linearization(0.0, self.initial_state, np.zeros(2 * len(self.freedoms) + 1))
         )
 
+    def linear_system(self, *speeds: float) -> Linearization | None:
+        """Return A, B, C, D over places and rates at the first speed; see `core.port.Reaction`."""
+        if type(self) is not FrequencyDependentReaction or (self._known.size > 1 and len(set(speeds)) > 1):
+            return None
+        still = np.append(np.zeros(2 * len(self.freedoms)), speeds[0])
+        A, B, C, D = self.linearization(0.0, self.initial_state, still)
+        n = len(self.freedoms)
+        return Linearization(A, B[:, : 2 * n], C[:n], D[:n, : 2 * n])
+
     def rest_state(self, position: ArrayLike, speed: float) -> Array:
         """Return the states that rest with the shaft at a place (n,), shape (m,)."""
         A, B, _, _ = self.leaking._system(speed)

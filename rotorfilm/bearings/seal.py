@@ -20,7 +20,7 @@ from ..core.errors import (
     warn_user,
 )
 from ..core.inputs import in_si, quantities
-from ..core.model import Array
+from ..core.model import Array, Linearization, static_linearization
 from ..core.readable import Readable
 from .reaction import InertialModel, broadcast_state, require_size, without_overflow
 
@@ -271,6 +271,12 @@ class AnnularSeal(InertialModel):
         if self.added_mass:
             slopes[:, :, 4] = np.multiply.outer(np.eye(2), self._values(omega)[1][4])
         return slopes
+
+    def linear_system(self, *speeds: float) -> Linearization | None:
+        """Return the force over places and rates where the speed is constant; see `core.port.Reaction`."""
+        if type(self) is not AnnularSeal or len(set(speeds)) > 1:
+            return None
+        return static_linearization(self.jacobian(np.zeros(2), np.zeros(2), speeds[0])[:, :4])
 
     def require_range(self, frequency: float) -> None:
         """Warn where motion is too fast for the expansion to second order in the transit time of the fluid.

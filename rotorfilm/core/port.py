@@ -46,6 +46,8 @@ class Reaction(Model, Protocol):
     - `prepare()` and `prepare_tangent()`, force and derivatives as functions of five numbers, for loops;
     - `compiled()`, the force in the C library with its added mass, a `native.film_call.FilmCall`, or None;
     - `is_constant`, whether it is springs and dampers, the same at any place, motion and speed;
+    - `linear_system(*speeds)`, a `Linearization` of forces and rates of states over places and rates where
+      these are linear, with the same coefficients at all of the speeds and any place, or None;
     - `minimum_film(position)`, if contact is not on the circle of the clearance;
     - `largest_eccentricity_ratio`, up to which its force is valid, 1 for up to the wall;
     - `force_noise(speed)`: the roundoff error of the force [N], for example of balls or pads;
@@ -246,6 +248,18 @@ def is_constant(reaction: object) -> bool:
     return bool(getattr(reaction, "is_constant", False))
 
 
+def linear_system(reaction: Any, speeds: Sequence[float]) -> Linearization | None:
+    """Return a planar reaction as linear equations over places and rates; None where they are not.
+
+    Parameters
+    ----------
+    reaction : Reaction
+    speeds : sequence of float [rad/s]
+        Speeds at which its coefficients must be the same.
+    """
+    return None if freedoms_of(reaction) != PLANAR else optional(reaction, "linear_system", *speeds)
+
+
 def static_force(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
     """Return force and moment of a reaction on the shaft, its states held, shape (n, ...) [N], [N m]."""
     law = getattr(reaction, "force", None)
@@ -407,7 +421,7 @@ def force_along(
     return force if mass is None else force - np.einsum("ij...,j...->i...", mass, acceleration)
 
 
-def mass_of(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
+def mass_of(reaction: Any, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
     """Return the added mass of any reaction, shape (n, n) [kg]; zeros where it has none."""
     n = len(freedoms_of(reaction))
     heavy = inertial(reaction)

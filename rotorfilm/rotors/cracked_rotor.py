@@ -289,7 +289,11 @@ class CrackedRotor(AroundRotor):
 
     def lost(self, t: float) -> Array:
         """Return the loss of stiffness by the crack at a time [s], along x and y, shape (2, 2)."""
-        angle = self.profile.angle(t) + self.crack.crack_angle
+        return self.lost_at(self.profile.angle(t))
+
+    def lost_at(self, turned: float) -> Array:
+        """Return the same when the shaft has turned by an angle [rad] since t = 0."""
+        angle = turned + self.crack.crack_angle
         share = self.breathing.share(angle - self._open_at)
         turn = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
         return np.asarray(share * turn.T @ (self.weakness[1][:, None] * turn))

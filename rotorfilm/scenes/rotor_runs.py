@@ -12,7 +12,6 @@ from scipy.interpolate import CubicSpline
 
 from .. import rotors
 from ..analysis import simulate, simulate_rotor
-from ..bearings.seal import AnnularSeal
 from ..core.errors import ContactError, InputError, warn_user
 from ..core.model import Array
 from ..core.port import Reaction, freedoms_of
@@ -215,18 +214,9 @@ def _parts(scene: Scene) -> _Parts:
 def _on_shaft(scene: Scene) -> tuple[rotors.ShaftRotor, dict[str, Reaction]]:
     """Return the shaft of a scene, and its bearings."""
     extra = (scene.excitation,) if isinstance(scene.excitation, UnbalanceTable) else ()
-    rotor, given = scene.shaft.build(scene.speed, extra), scene.shaft.build_bearings()
-    bearings = {name: _massless(name, bearing) for name, bearing in given.items()}
+    rotor, bearings = scene.shaft.build(scene.speed, extra), scene.shaft.build_bearings()
     resting, at = at_rest(rotor, bearings, scene.speed)
     return resting, from_shaft_rest(bearings, at)
-
-
-def _massless(name: str, bearing: Reaction) -> Reaction:
-    """Return a bearing that the compiled integration takes: a seal without its added mass, and a warning."""
-    if not isinstance(bearing, AnnularSeal):
-        return bearing
-    warn_user(f"the added mass of the seal {name!r} is left out of a run over time")
-    return replace(bearing, added_mass=False)
 
 
 def _rigid(scene: Scene) -> tuple[rotors.RigidRotor, dict[str, Reaction]]:

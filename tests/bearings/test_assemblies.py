@@ -36,7 +36,7 @@ from rotorfilm import (
     with_springs,
 )
 from rotorfilm.analysis import dynamic_stiffness
-from rotorfilm.analysis.compiled_rotor import film_call
+from rotorfilm.analysis.force_calls import film_call
 from rotorfilm.bearings import Body, HalfSommerfeld, Series
 from rotorfilm.core.port import (
     compiled_force,

@@ -149,6 +149,8 @@ int rf_set_step_table(const rf_modes *rotor, const rf_scheme *scheme, double h, 
             set_weights(modes, count, polynomial, integrals, w + j * modes);
             set_seen(rotor, w + j * modes, table->gain + (size_t)(i * s + j) * block);
         }
+        for (size_t k = 0; rotor->direct && k < block; ++k)
+            table->gain[(size_t)(i * s + i) * block + k] += rotor->direct[k];
         set_weights(modes, count, scheme->remainder, integrals, w + s * modes);
         set_seen(rotor, w + s * modes, table->defect + (size_t)i * block);
         set_move(rotor, table->keep, table->move + i * rotor->rows * 2 * modes);

@@ -20,10 +20,11 @@ typedef struct rf_complex {
 typedef struct rf_modes {
     int32_t modes;
     int32_t channels;         /* of u: two for each journal, two of the unbalance, those of an excitation */
-    int32_t rows;             /* x, y, vx, vy of each journal */
+    int32_t rows;             /* x, y, vx, vy of each journal, and with added masses ax, ay of each */
     const rf_complex *values; /* modes */
     const rf_complex *push;   /* modes x channels */
     const rf_complex *sense;  /* rows x modes */
+    const double *direct;     /* rows x channels: accelerations per force at the same moment; NULL without them */
 } rf_modes;
 
 /* Nodes of a step and polynomials on them, coefficients by rising power. */

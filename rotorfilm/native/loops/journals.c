@@ -25,15 +25,36 @@ static int film_at(const rf_journals *journals, int32_t b, int freedoms, double 
     return status;
 }
 
-/* A journal without tilt: force[2], slope[2][4]. */
-static int planar(const rf_journals *journals, int32_t b, const double *at, double speed, double *force, double *slope)
+/* What the mass that a film adds does at an acceleration, to force[2] and slope[2][6]. */
+static int weigh(const rf_journals *journals, int32_t b, const double *state, const double *a, double *force,
+                 double *slope)
 {
-    double state[5] = {at[0], at[1], at[2], at[3], speed}, jacobian[10];
+    double mass[3] = {0.0}, by[12] = {0.0};
+    const rf_mass_response heavy = journals->masses[b];
+    const int status = heavy ? heavy(journals->of_masses[b], state, mass, by) : RF_OK;
+    if (status < RF_AT_WALL && (rf_is_broken(mass, 3) || rf_is_broken(by, 12)))
+        return RF_NOT_FINITE;
+    rf_add_inertia(mass, by, a, 6, force, slope);
+    for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j)
+            slope[6 * i + 4 + j] = -mass[i + j];
+    return status;
+}
+
+/* A journal without tilt: force[2], slope[2][4], of 6 columns with its acceleration. */
+static int planar(const rf_journals *journals, int32_t b, const double *at, const double *a, const double *turning,
+                  double *force, double *slope)
+{
+    const int32_t width = rf_slope_width(journals);
+    double state[6] = {at[0], at[1], at[2], at[3], turning[0], turning[1]}, jacobian[10];
     const int status = film_at(journals, b, 2, state, force, jacobian);
     for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 4; ++j)
-            slope[4 * i + j] = jacobian[5 * i + j];
-    return status;
+            slope[width * i + j] = jacobian[5 * i + j];
+    if (!journals->masses || status >= RF_AT_WALL)
+        return status;
+    const int of_mass = weigh(journals, b, state, a, force, slope);
+    return of_mass > status ? of_mass : status;
 }
 
 /* A journal at two points: force[4], slope[4][8]. Freedoms are (x, y, tilt_x, tilt_y) = part (x, y of both). */
@@ -65,9 +86,11 @@ static int tilted(const rf_journals *journals, int32_t b, const double *at, doub
     return status;
 }
 
-int rf_set_forces(const rf_journals *journals, const double *motion, double speed, double *force, double *slope)
+int rf_set_forces(const rf_journals *journals, const double *motion, double speed, double turned, double *force,
+                  double *slope)
 {
-    const int32_t points = journals->points, rows = 4 * points;
+    const int32_t points = journals->points, rows = 4 * points, width = rf_slope_width(journals);
+    const double turning[2] = {speed, turned};
     int worst = RF_OK;
     for (int32_t b = 0; b < journals->count / points; ++b) {
         double at[8];
@@ -76,8 +99,10 @@ int rf_set_forces(const rf_journals *journals, const double *motion, double spee
         for (int32_t p = 0; p < points; ++p)
             if (hypot(at[4 * p], at[4 * p + 1]) >= journals->walls[points * b + p])
                 return RF_AT_WALL;
-        double *const to = force + 2 * points * b, *const by = slope + 2 * points * rows * b;
-        const int status = (points == 1 ? planar : tilted)(journals, b, at, speed, to, by);
+        double *const to = force + 2 * points * b, *const by = slope + 2 * points * width * b;
+        const double *a = journals->masses ? motion + 4 * journals->count + 2 * b : NULL;
+        const int status = points == 1 ? planar(journals, b, at, a, turning, to, by)
+                                       : tilted(journals, b, at, speed, to, by);
         worst = status > worst ? status : worst;
         if (status >= RF_AT_WALL)
             return status;
@@ -85,8 +110,8 @@ int rf_set_forces(const rf_journals *journals, const double *motion, double spee
             const int32_t row = 2 * points * b + i, place = 4 * (i / 2) + i % 2;
             const double k = journals->spring[row], c = journals->damper[row];
             to[i] = to[i] + k * at[place] + c * at[place + 2];
-            by[rows * i + place] += k;
-            by[rows * i + place + 2] += c;
+            by[width * i + place] += k;
+            by[width * i + place + 2] += c;
         }
     }
     return worst;
@@ -102,7 +127,7 @@ int rf_journal_forces(const rf_journals *journals, int64_t samples, const double
     for (int64_t n = 0; n < samples && worst < RF_AT_WALL; ++n) {
         for (int32_t q = 0; q < 2 * forces; ++q)
             now[q] = motion[q * samples + n];
-        const int status = rf_set_forces(journals, now, speed, answer, by);
+        const int status = rf_set_forces(journals, now, speed, 0.0, answer, by);
         worst = status > worst ? status : worst;
         for (int32_t q = 0; q < forces; ++q)
             force[q * samples + n] = answer[q];

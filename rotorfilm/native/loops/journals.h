@@ -23,11 +23,32 @@ typedef struct rf_journals {
     const double *lengths;         /* n: typical displacements [m] */
     const double *walls;           /* n: eccentricities at which a journal counts as touching [m] */
     const double *arms;            /* n/points: distance of both points from the middle [m] */
+    const rf_mass_response *masses; /* n: of what a film adds, or NULL; NULL where no film does */
+    const void *const *of_masses;
 } rf_journals;
 
-/* Films' forces and springs (2 n) at one motion (4 n), and slopes by that of the same journal (2 n x 4 points);
-   the most severe status. */
-int rf_set_forces(const rf_journals *journals, const double *motion, double speed, double *force, double *slope);
+/* Numbers by which the force of a journal changes: its motion, and with added masses its acceleration. */
+static inline int32_t rf_slope_width(const rf_journals *journals)
+{
+    return 4 * journals->points + (journals->masses ? 2 : 0);
+}
+
+/* Add the force of inertia -M a, of a mass (xx, xy, yy), and its slopes by x, y, vx, vy, rows `width` apart. */
+static inline void rf_add_inertia(const double *mass, const double *slopes, const double *a, int width, double *f,
+                                  double *by)
+{
+    for (int i = 0; i < 2; ++i) {
+        f[i] -= mass[i] * a[0] + mass[i + 1] * a[1];
+        for (int k = 0; k < 4; ++k)
+            by[width * i + k] -= slopes[4 * i + k] * a[0] + slopes[4 * (i + 1) + k] * a[1];
+    }
+}
+
+/* Films' forces and springs (2 n) at one motion (4 n, and with added masses 2 n accelerations), and slopes by that
+   of the same journal (2 n x rf_slope_width); the most severe status. `turned` is the angle of the shaft, which
+   films without tilt find behind their state. */
+int rf_set_forces(const rf_journals *journals, const double *motion, double speed, double turned, double *force,
+                  double *slope);
 
 /* Forces of films and springs (2 n rows) and slopes by x, y, vx, vy (2 n x 4 points rows) of motions (4 n
    rows), rows of `samples`, at one speed; the most severe status. */

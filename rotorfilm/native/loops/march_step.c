@@ -15,13 +15,13 @@ int rf_open_scratch(rf_scratch *at, const rf_march *march)
 {
     const size_t s = (size_t)march->scheme.stages, channels = (size_t)march->rotor.channels;
     const size_t rows = (size_t)march->rotor.rows, modes = (size_t)march->rotor.modes;
-    const size_t all = 2 * s * (size_t)march->journals.count, wide = 4 * (size_t)march->journals.points;
+    const size_t all = 2 * s * (size_t)march->journals.count, wide = (size_t)rf_slope_width(&march->journals);
     const size_t drives = march->spin.matrix ? 2 * modes : 0;
     const size_t sizes[] = {s * channels, s * channels, channels, 2 * modes, s * rows, s * rows,  s * rows,
-                            s,            all,          wide * all,  s * drives, s * drives, drives, s * drives, all * all,
+                            s, s, all, wide * all, s * drives, s * drives, drives, s * drives, all * all,
                             all,          2 * modes * s, 2 * modes * s};
     double **const places[] = {&at->u,      &at->guess, &at->start, &at->both,   &at->free, &at->motion,
-                               &at->before, &at->speed, &at->force, &at->slope, &at->drive,
+                               &at->before, &at->speed, &at->turned, &at->force, &at->slope, &at->drive,
                                &at->drive_before, &at->drive_start, &at->push, &at->matrix, &at->right};
     const size_t count = sizeof sizes / sizeof *sizes, named = sizeof places / sizeof *places;
     size_t total = 0;
@@ -37,8 +37,8 @@ int rf_open_scratch(rf_scratch *at, const rf_march *march)
     return RF_OK;
 }
 
-/* Set pair to (w^2 cos p + a sin p, w^2 sin p - a cos p) and return the speed w at a time. */
-static double unbalance(const rf_speeds *profile, double t, double pair[2])
+/* Set pair to (w^2 cos p + a sin p, w^2 sin p - a cos p), *turned to p, and return the speed w at a time. */
+static double unbalance(const rf_speeds *profile, double t, double pair[2], double *turned)
 {
     int32_t k = 0;
     while (k + 1 < profile->count && profile->times[k + 1] <= t)
@@ -47,6 +47,7 @@ static double unbalance(const rf_speeds *profile, double t, double pair[2])
     const double w = profile->speeds[k] + a * passed;
     const double p = profile->angles[k] + passed * (profile->speeds[k] + 0.5 * a * passed);
     const double c = cos(p), s = sin(p);
+    *turned = p;
     pair[0] = w * w * c + a * s;
     pair[1] = w * w * s - a * c;
     return w;
@@ -67,12 +68,12 @@ static void set_excitation(const rf_excitation *given, double t, double *out)
     }
 }
 
-/* What acts besides the films at a time, in the channels after theirs; the speed. */
-static double set_given(const rf_march *march, double t, double *given)
+/* What acts besides the films at a time, in the channels after theirs; the speed, and the angle turned. */
+static double set_given(const rf_march *march, double t, double *given, double *turned)
 {
     if (march->excitation.count > 0)
         set_excitation(&march->excitation, t, given + 2);
-    return unbalance(&march->profile, t, given);
+    return unbalance(&march->profile, t, given, turned);
 }
 
 /* Motion of the journals at the nodes under the forces in at->guess. */
@@ -95,10 +96,10 @@ static void set_motion(const rf_march *march, const rf_step_table *table, rf_scr
 static int set_node_forces(rf_march *march, rf_scratch *at)
 {
     const int32_t rows = march->rotor.rows, forces = 2 * march->journals.count;
-    const int32_t slopes = 4 * march->journals.points * forces;
+    const int32_t slopes = rf_slope_width(&march->journals) * forces;
     int worst = RF_OK;
     for (int32_t i = 0; i < march->scheme.stages; ++i) {
-        const int status = rf_set_forces(&march->journals, at->motion + i * rows, at->speed[i],
+        const int status = rf_set_forces(&march->journals, at->motion + i * rows, at->speed[i], at->turned[i],
                                          at->force + i * forces, at->slope + slopes * i);
         march->films += 1;
         if (status >= RF_AT_WALL)
@@ -108,19 +109,27 @@ static int set_node_forces(rf_march *march, rf_scratch *at)
     return worst;
 }
 
+/* Number k of what the force of a journal changes with, among all rows: its motion, then its acceleration. */
+static int32_t row_of(const rf_march *march, int32_t journal, int32_t k)
+{
+    const int32_t own = 4 * march->journals.points;
+    return k < own ? own * journal + k : 4 * march->journals.count + 2 * journal + k - own;
+}
+
 /* The linear equations of Newton's method for the forces at the nodes. */
 static void set_equations(const rf_march *march, const rf_step_table *table, rf_scratch *at)
 {
     const int32_t s = march->scheme.stages, channels = march->rotor.channels, rows = march->rotor.rows;
     const int32_t forces = 2 * march->journals.count, size = s * forces, own = 2 * march->journals.points;
+    const int32_t width = rf_slope_width(&march->journals);
     memset(at->matrix, 0, (size_t)size * (size_t)size * sizeof *at->matrix);
     for (int32_t row = 0; row < size; ++row) {
         const int32_t i = row / forces, r = row % forces;
         double *to = at->matrix + row * size;
         for (int32_t j = 0; j < s; ++j)
-            for (int32_t k = 0; k < 2 * own; ++k) {
-                const double slope = at->slope[2 * own * row + k];
-                const double *gain = table->gain + ((i * s + j) * rows + 2 * own * (r / own) + k) * channels;
+            for (int32_t k = 0; k < width; ++k) {
+                const double slope = at->slope[width * row + k];
+                const double *gain = table->gain + ((i * s + j) * rows + row_of(march, r / own, k)) * channels;
                 for (int32_t c = 0; c < forces; ++c)
                     to[j * forces + c] -= slope * gain[c];
             }
@@ -203,7 +212,7 @@ int rf_try_step(rf_march *march, const rf_step_table *table, double h, double la
     const int32_t modes = march->rotor.modes;
     for (int32_t i = 0; i < s; ++i)
         at->speed[i] = set_given(march, fmin(march->time + h * march->scheme.nodes[i], last),
-                                 at->guess + i * channels + 2 * march->journals.count);
+                                 at->guess + i * channels + 2 * march->journals.count, at->turned + i);
     for (int32_t m = 0; m < modes; ++m) {
         at->both[m] = march->z[m].re;
         at->both[modes + m] = march->z[m].im;
@@ -215,9 +224,38 @@ int rf_try_step(rf_march *march, const rf_step_table *table, double h, double la
     return status;
 }
 
+void rf_add_direct(const rf_march *march, const double *forces, const double *drive, double *motion)
+{
+    const int32_t modes = march->rotor.modes, channels = march->rotor.channels, n = march->journals.count;
+    if (!march->rotor.direct)
+        return;
+    rf_add_product((size_t)march->rotor.rows, (size_t)channels, 1.0, march->rotor.direct, forces, motion);
+    for (int32_t k = 0; drive && k < 2 * n; ++k) {
+        const rf_complex *rate = march->rotor.sense + (4 * (k / 2) + 2 + k % 2) * modes;
+        for (int32_t m = 0; m < modes; ++m)
+            motion[4 * n + k] += rate[m].re * drive[m] - rate[m].im * drive[modes + m];
+    }
+}
+
+/* The forces at the start from those at the accelerations without any of them, where films add masses. */
+static int share_acceleration(const rf_march *march, rf_scratch *at)
+{
+    const int32_t forces = 2 * march->journals.count, width = rf_slope_width(&march->journals);
+    for (int32_t r = 0; r < forces; ++r)
+        for (int32_t c = 0; c < forces; ++c) {
+            double *to = at->matrix + r * forces + c;
+            *to = r == c;
+            for (int32_t k = 4; k < width; ++k)
+                *to -= at->slope[width * r + k] * march->rotor.direct[row_of(march, r / 2, k) * march->rotor.channels + c];
+        }
+    rf_eliminate((size_t)forces, at->matrix, 1, at->start);
+    return rf_is_broken(at->start, (size_t)forces) ? RF_NOT_FINITE : RF_OK;
+}
+
 int rf_set_start(const rf_march *march, rf_scratch *at)
 {
     const int32_t rows = march->rotor.rows, modes = march->rotor.modes, forces = 2 * march->journals.count;
+    double turned;
     for (int32_t q = 0; q < rows; ++q) {
         const rf_complex *sense = march->rotor.sense + q * modes;
         double total = 0.0;
@@ -225,8 +263,14 @@ int rf_set_start(const rf_march *march, rf_scratch *at)
             total += sense[m].re * march->z[m].re - sense[m].im * march->z[m].im;
         at->motion[q] = total;
     }
-    const double w = set_given(march, march->time, at->start + forces);
+    const double w = set_given(march, march->time, at->start + forces, &turned);
     if (march->spin.matrix)
         rf_set_drive_start(march, w, at);
-    return rf_set_forces(&march->journals, at->motion, w, at->start, at->slope);
+    memset(at->start, 0, (size_t)forces * sizeof *at->start);
+    rf_add_direct(march, at->start, march->spin.matrix ? at->drive_start : NULL, at->motion);
+    const int status = rf_set_forces(&march->journals, at->motion, w, turned, at->start, at->slope);
+    if (!march->rotor.direct || status >= RF_AT_WALL)
+        return status;
+    const int solved = share_acceleration(march, at);
+    return solved > status ? solved : status;
 }

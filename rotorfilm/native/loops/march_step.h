@@ -10,8 +10,8 @@ typedef struct rf_scratch {
     double *start;          /* channels: at its start */
     double *both;           /* 2 modes */
     double *free, *motion, *before; /* s x rows: without forces, with them, and with those of the last iterate */
-    double *speed;          /* s */
-    double *force, *slope;  /* s x 2 n, s x 2 n x 4 */
+    double *speed, *turned; /* s: angular speed, and angle */
+    double *force, *slope;  /* s x 2 n, s x 2 n x rf_slope_width */
     double *drive, *drive_before; /* s x 2 modes: what spin.h adds, in this step and in the last one */
     double *drive_start, *push;   /* 2 modes: at the start; s x 2 modes: all that acts on the modes */
     double *matrix, *right; /* (s 2 n) squared, and as many as one row or all channels */
@@ -24,6 +24,9 @@ int rf_open_scratch(rf_scratch *at, const rf_march *march);
 
 /* Films' forces and unbalance at the time of the march, in at->start. */
 int rf_set_start(const rf_march *march, rf_scratch *at);
+
+/* Add to the motion of the journals the accelerations per force and drive at the same moment. */
+void rf_add_direct(const rf_march *march, const double *forces, const double *drive, double *motion);
 
 /* Solve one step for the forces in at->guess; a status, and the local error over rtol. `last` is the latest
    time at which the speed is asked for. */

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "journals.h"
+
 #define NEWTON_STEPS 20
 #define TOLERANCE 1e-10     /* last Newton step, in clearances */
 #define NEAR 0.9999         /* eccentricity ratio from which Newton's method that does not end was led to the wall */
@@ -46,16 +48,6 @@ static int whole_mass(const rf_shaken *rotor, const double *state, double *mass,
     return status;
 }
 
-/* Add the force of inertia, -M a, and its slopes but for those by a. */
-static void add_inertia(const double *mass, const double *slopes, const double *a, double *f, double *D)
-{
-    for (int i = 0; i < 2; ++i) {
-        f[i] -= mass[i] * a[0] + mass[i + 1] * a[1];
-        for (int k = 0; k < 4; ++k)
-            D[5 * i + k] -= slopes[4 * i + k] * a[0] + slopes[4 * (i + 1) + k] * a[1];
-    }
-}
-
 /* Newton's step at the end of a time step, less the part of it that would leave less than a tenth of the gap;
    its length before that in *change. Where the last one led onto a pad it is cut, `free` is where it began. */
 static int correct(rf_shaken *rotor, const point *from, const double *pull, double *free, point *to, double *change)
@@ -77,7 +69,7 @@ static int correct(rf_shaken *rotor, const point *from, const double *pull, doub
     free[0] = to->q[0];
     free[1] = to->q[1];
     rotor->left_map |= status == RF_OUTSIDE;
-    add_inertia(mass, slopes, to->a, f, D);
+    rf_add_inertia(mass, slopes, to->a, 5, f, D);
     const double rx = f[0] + pull[0], ry = f[1] + pull[1];
     const double a = mass[0] * k2 - D[0] - k1 * D[2], b = mass[1] * k2 - D[1] - k1 * D[3];
     const double c = mass[1] * k2 - D[5] - k1 * D[7], d = mass[2] * k2 - D[6] - k1 * D[8], det = a * d - b * c;

@@ -79,7 +79,9 @@ void rf_set_spinning_motion(const rf_march *march, const rf_step_table *table, r
     for (int32_t i = 0; i < march->scheme.stages; ++i) {
         set_node(march, table, at, i, at->both);
         set_seen(march, at->both, motion + i * march->rotor.rows);
-        set_drive(march, at->speed[i], at->both, at->drive + 2 * i * march->rotor.modes);
+        double *const drive = at->drive + 2 * i * march->rotor.modes;
+        set_drive(march, at->speed[i], at->both, drive);
+        rf_add_direct(march, at->guess + i * march->rotor.channels, drive, motion + i * march->rotor.rows);
     }
 }
 

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 import rotorfilm as rf
 from rotorfilm import InputError
-from rotorfilm.analysis.compiled_rotor import call_with_added_mass
+from rotorfilm.analysis.force_calls import call_with_added_mass
 from rotorfilm.native.film_call import MASSLESS
 
 SIZE = {"radius": 63.5e-3, "length": 25.4e-3, "clearance": 0.127e-3, "viscosity": 2.5e-3}

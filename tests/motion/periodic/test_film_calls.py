@@ -5,7 +5,8 @@ import pytest
 from hypothesis import assume, given, settings, strategies as st
 
 from rotorfilm import JournalBearing, LinearBearing, Parallel, PorousDamper, RubRing, ShortFilm, with_springs
-from rotorfilm.analysis.compiled_rotor import JournalFilms, film_call
+from rotorfilm.analysis.compiled_rotor import JournalFilms
+from rotorfilm.analysis.force_calls import film_call
 from rotorfilm.bearings import MapSqueeze
 from rotorfilm.core.port import compiled_force
 from rotorfilm.native import Status
