@@ -641,7 +641,8 @@ def _is_compiled(bearing: Any) -> bool:
 
 def _in_order(rotor: Dynamic, bearings: Iterable[Any]) -> bool:
     """Return whether all bearings with states were mounted in one go, so that their order is known."""
-    levels, level = [any(bearing.states for bearing in bearings)], rotor
+    levels = [any(bearing.states for bearing in bearings)]
+    level: Any = rotor
     while isinstance(level, MountedRotor):
         levels.append(any(bearing.states for bearing in level.bearings))
         level = level.rotor
