@@ -32,7 +32,7 @@ from rotorfilm.bearings.journal import (
     SplittingFilm,
     fitted_bearing,
 )
-from rotorfilm.bearings.journal.groove_map import Resolution, build_groove_table
+from rotorfilm.bearings.journal.groove_map import GrooveMap, Resolution
 from rotorfilm.studies import (
     LARGE,
     States,
@@ -199,7 +199,7 @@ def print_openings() -> None:
     for resolution in (Resolution((192, 12), (12, 72, 48), 0.97), Resolution((96, 8), (8, 48, 32), 0.97)):
         told: list[str] = []
         begin, cpu = perf_counter(), process_time()
-        table = build_groove_table(openings, 0.5, resolution, lambda _, text, told=told: told.append(text))
+        table = GrooveMap(openings, 0.5, resolution).built(lambda _, text, told=told: told.append(text))
         wall, cpu = perf_counter() - begin, process_time() - cpu
         found = GroovedMapFilm(table=table).fitted(geometry).force(e, w, 0.5)
         error = np.linalg.norm(found - exact, axis=0) / np.linalg.norm(exact, axis=0)

@@ -12,7 +12,7 @@ import numpy as np
 
 import rotorfilm as rf
 from rotorfilm.bearings import ExtrapolatedFilm, MomentCarryingJournal, TiltLevel
-from rotorfilm.bearings.journal.tilt_map import build_tilt_table
+from rotorfilm.bearings.journal.tilt_map import TiltMap
 from rotorfilm.charts import new_axes
 
 scene = rf.Scene.load(Path(__file__).with_name("flexible_rotor.toml"))
@@ -29,7 +29,7 @@ thresholds = [rf.rotor_threshold(*pair, speeds).speed for pair in ((shaft, align
 print(f"threshold of stability: aligned {thresholds[0]:.1f} rad/s, with tilt {thresholds[1]:.1f} rad/s")
 
 plain = replace(grid, film=rf.MapFilm())
-table = build_tilt_table(plain.slenderness, cells=(64, 8))
+table = TiltMap(plain.slenderness, (64, 8)).built()
 second = MomentCarryingJournal(bearing=plain, level=TiltLevel.SECOND_ORDER, tilt_map=table)
 closed = MomentCarryingJournal(bearing=plain, level=TiltLevel.CLOSED_FORM)
 arm, c, still = 0.5 * plain.length, plain.clearance, np.zeros(4)

@@ -8,7 +8,7 @@ from fmpy.fmi1 import FMICallException
 from rotorfilm import JournalBearing, ValidityWarning, export_fmu
 from rotorfilm.bearings import MomentCarryingJournal
 from rotorfilm.bearings.journal import TiltLevel
-from rotorfilm.bearings.journal.tilt_map import build_tilt_table
+from rotorfilm.bearings.journal.tilt_map import TiltMap
 from rotorfilm.fmu import check_fmu
 
 PLAIN = JournalBearing(radius=0.05, length=0.1, clearance=1e-4, viscosity=0.02)
@@ -22,7 +22,7 @@ levels = pytest.mark.parametrize("level", [TiltLevel.NONE, TiltLevel.CLOSED_FORM
 @pytest.fixture(scope="module")
 def table():
     """Return a map of tilts from films on few cells."""
-    return build_tilt_table(1.0, cells=(32, 8))
+    return TiltMap(1.0, (32, 8)).built()
 
 
 def held(level, table):

@@ -86,7 +86,7 @@ def test_stiffness_and_threshold_follow_the_tilt():
 
 
 def test_a_map_of_tilts_answers_where_it_is_there(monkeypatch):
-    coarse = tilt_map.kernel_of(tilt_map.build_tilt_table(1.0, cells=(48, 4)))
+    coarse = tilt_map.kernel_of(tilt_map.TiltMap(1.0, (48, 4)).built())
     monkeypatch.setattr(tilted_films, "has_tilt_map", lambda slenderness: True)
     monkeypatch.setattr(
         "rotorfilm.bearings.journal.moment_carrying_journal.tilt_kernel", lambda slenderness: coarse

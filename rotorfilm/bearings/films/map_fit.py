@@ -6,15 +6,18 @@ import math
 import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from functools import partial
+from pathlib import Path
 from time import perf_counter
-from typing import Protocol
+from typing import Any, ClassVar, Generic, NamedTuple, Protocol, TypeVar, cast
 
 import numpy as np
 
 from ...core.errors import InputError
 from ...core.model import Array
-from ...core.progress import Report
-from .map_table import MapTable, stretch, unstretch
+from ...core.progress import Report, silent
+from ...core.sources import source_digest
+from .map_table import MapTable, StoredTable, cached_table, stretch, table_path, told, unstretch
 
 _SLOPE_WEIGHTS = np.array([8 / 5, -4 / 5, 8 / 35, -1 / 35])
 """Weights of an even function at 1, 2, 3, 4 that give its value at 0, to eighth order."""
@@ -285,6 +288,14 @@ PILOT = 0.08
 
 GOLDEN = 0.6180339887498949
 
+NODE_TIME = 1.4e-7
+"""Time of a node for each cell of the finest grid [s], on a core of 2023."""
+
+LOSS_NODES = 6
+"""Nodes of the potential on a grid that take as long as one of the losses on it, whose film begins anew."""
+
+S = TypeVar("S", bound=StoredTable)
+
 
 def cores() -> int:
     """Return the number of cores that this process may use."""
@@ -339,12 +350,84 @@ def made_pieces(
     return [found[number] for number in range(len(pieces))]
 
 
-def made_groups(
-    groups: Sequence[Sequence[Callable[[], Array]]], report: Report, what: str
-) -> list[list[Array]]:
-    """Return what the pieces of each group return; see `made_pieces`."""
-    found = iter(made_pieces([piece for group in groups for piece in group], report, what))
-    return [[next(found) for _ in group] for group in groups]
+class MapPart(NamedTuple):
+    """A part of a map: its pieces of work, and what is made of what they return, in their order."""
+
+    pieces: Sequence[Callable[[], Array]]
+    fit: Callable[[list[Array]], Any]
+
+
+def joined(pieces: Sequence[Callable[[], Array]]) -> MapPart:
+    """Return the part whose pieces return (..., n) of some states each, joined along the last axis."""
+    return MapPart(pieces, partial(np.concatenate, axis=-1))
+
+
+class MapPlan(Generic[S]):
+    """How the map of one gap is made on all cores and kept; a frozen dataclass, which decides its content.
+
+    A subclass has the gap, the axes and `finished`, which returns the map of what its parts return.
+    """
+
+    kind: ClassVar[type[Any]]
+    name: ClassVar[str]
+    title: ClassVar[str]
+    slenderness: float
+    finished: Callable[..., S]
+
+    def parts(self) -> tuple[MapPart, ...]:
+        """Return the parts of the map, whose pieces run side by side."""
+        raise NotImplementedError
+
+    @property
+    def work(self) -> float:
+        """Nodes of the map, times cells of the film, that take as long as all of it."""
+        raise NotImplementedError
+
+    @property
+    def label(self) -> str:
+        """What the map is of, in the log."""
+        return f"length/diameter {self.slenderness:.6g}"
+
+    @property
+    def key(self) -> object:
+        """All that decides the content of the map."""
+        return self
+
+    @property
+    def path(self) -> Path:
+        """Where the map is kept; the name is a digest of all that decides its content."""
+        return table_path(self.name, (source_digest(type(self).__module__), self.key))
+
+    def built(self, report: Report = silent) -> S:
+        """Return the map with the bounds of its error, made on all cores.
+
+        Parameters
+        ----------
+        report : callable, optional
+            Called with the fraction done and a text that says how long all of it takes, some hundred times.
+
+        Raises
+        ------
+        ConvergenceError
+            If the search for a ruptured zone does not end.
+        """
+        parts = self.parts()
+        found = iter(made_pieces([piece for part in parts for piece in part.pieces], report, self.title))
+        return self.finished(*(part.fit([next(found) for _ in part.pieces]) for part in parts))
+
+    def kept(self, report: Report = silent) -> S:
+        """Return the map on disk, or a new one, which is then kept; without a report the log tells."""
+        telling = told(report, self.label, self.path.parent)
+        return cast(S, cached_table(self.kind, self.path, lambda: self.built(telling)))
+
+    def making_time(self) -> float:
+        """Return about how long the map takes on all cores of this machine [s]; 0 where it is on disk."""
+        return 0.0 if self.path.is_file() else NODE_TIME * self.work / cores()
+
+
+def nine_digits(value: float) -> float:
+    """Return a dimension rounded, so that bearings of one shape share a map."""
+    return float(f"{value:.9g}")
 
 
 def spread_order(count: int) -> list[int]:

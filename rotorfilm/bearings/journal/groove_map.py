@@ -21,7 +21,6 @@ import numpy as np
 from ...core.errors import InputError
 from ...core.inputs import quantities
 from ...core.model import Array
-from ...core.progress import Report, silent
 from ...native import MapKernel, MapKind
 from ...native.film_kernels import periodic
 from ...native.loss_kernels import LossKernel
@@ -35,14 +34,16 @@ from ..films.finite_volumes import (
     ring_grids,
     ring_spans,
 )
-from ..films.geometry import TURN, AlignedOpenings, Complementarity, FilmGeometry, Groove
+from ..films.geometry import STEPS, TURN, AlignedOpenings, Complementarity, FilmGeometry, Groove
 from ..films.law import static_rate
 from ..films.map_fit import (
+    LOSS_NODES,
     MARGIN,
+    MapPart,
+    MapPlan,
     batches,
-    cores,
     even_shares,
-    made_groups,
+    joined,
     node_eccentricities,
     periodic_quintic,
     periodic_quintic_coefficients,
@@ -185,18 +186,6 @@ TURNING = 1e-9
 """Rate of the oil, for a source of 1/s, where it turns back: its sign alone counts."""
 
 
-def opened_film(
-    grooves: tuple[Groove, ...],
-    slenderness: float,
-    cells: tuple[int, int],
-    mobility: Mobility | None = None,
-) -> RingKernel:
-    """Return the two-dimensional film of a bearing with openings."""
-    geometry = FilmGeometry(grooves=grooves)
-    grids = ring_grids(geometry, *cells, max(slenderness, LONG))
-    return RingKernel(slenderness, ring_spans(geometry), grids, Complementarity(), mobility=mobility)
-
-
 def loss_cells(cells: tuple[int, int]) -> tuple[int, int]:
     """Return the cells of the film at the nodes of the losses: half of those of the potential, about."""
     around, along = (COARSENING * math.ceil(count / (2 * COARSENING)) for count in cells)
@@ -300,19 +289,11 @@ def land_edges(grooves: tuple[Groove, ...]) -> Array:
 ORDER = 4
 """Order of convergence, in the size of the cells, of the potential extrapolated from two grids."""
 
-NODE_TIME = 1.4e-7
-"""Time of a node for each cell of the finest grid [s], on a core of 2023."""
-
 CHECK_NODES = 18
 """Nodes that take as long as one state of the bounds, four times the cells and derivatives."""
 
-LOSS_NODES = 6
-"""Nodes of the potential on a grid that take as long as one of the losses on it, whose film begins anew."""
-
 LOSS_CHECKS = 16
 """The same of the losses at the states of the bounds."""
-
-TITLE = "map of the grooved bearing"
 
 HARMONICS = 20
 """Of L0 and of dL/de at the center, over the direction of the source: beyond is the noise of the grid."""
@@ -340,10 +321,9 @@ class Resolution(NamedTuple):
     mobility: Mobility | None = None
 
 
-def build_groove_table(
-    openings: AlignedOpenings, slenderness: float, resolution: Resolution, report: Report = silent
-) -> GrooveMapTable:
-    """Return the map of one bearing, made on all cores, with the bounds of its error.
+@dataclass(frozen=True)
+class GrooveMap(MapPlan[GrooveMapTable]):
+    """The map of one bearing with openings.
 
     Parameters
     ----------
@@ -351,61 +331,105 @@ def build_groove_table(
     slenderness : float [1]
         Length / diameter.
     resolution : Resolution
-    report : callable, optional
-        Called with the fraction done and a text that says how long all of it takes, some hundred times.
-
-    Raises
-    ------
-    ConvergenceError
-        If the search for a ruptured zone does not end.
     """
-    grooves, largest = openings.grooves, resolution.largest_eccentricity_ratio
-    around, along = resolution.cells
-    coarse, film, finer = (
-        opened_film(grooves, slenderness, cells, resolution.mobility)
-        for cells in (loss_cells(resolution.cells), resolution.cells, (2 * around, 2 * along))
-    )
-    states, chi = bound_states(grooves, largest), loss_eccentricities(largest, resolution.nodes[0])
-    solved = np.unique(symmetric_nodes(openings, resolution.nodes[1])[0])
-    turns = (TURN / resolution.nodes[1] * solved).tolist()
-    columns = [
-        partial(_level, film, *place) for j in solved.tolist() for place in _column_places(resolution, j)
-    ]
-    losses = [partial(node_losses_between, coarse, each, turn) for turn in turns for each in chi]
-    references = [
-        partial(made, of, e, w)
-        for made, of in ((reference, finer), (bound_losses, film))
-        for e, w in batches(*states[1:])
-    ]
-    center = _centered(film)
-    levels, nodes, exact = made_groups((columns, losses, references), report, TITLE)
-    M = _exponents(center, np.reshape(levels, (len(solved), resolution.nodes[0], -1)), openings, resolution)
-    shear, flows = fitted_losses(whole_losses(np.array(nodes), solved, openings, resolution), chi)
-    table = GrooveMapTable(
-        slenderness=slenderness,
-        grooves=grooves,
-        reach=float(stretch(largest)),
-        crowding=CROWDING,
-        log_center=center[0],
-        coefficients=_splines(M, resolution),
-        shear=shear,
-        flows=flows,
-        mobility=checksum_of(resolution.mobility),
-    )
-    half = len(exact) // 2
-    both = np.concatenate([np.concatenate(part, axis=1) for part in (exact[:half], exact[half:])])
-    return replace(table, bounds=groove_bounds(table, states, both))
 
+    openings: AlignedOpenings
+    slenderness: float
+    resolution: Resolution
+    kind = GrooveMapTable
+    name = "groove"
+    title = "map of the grooved bearing"
 
-def expected_time(openings: AlignedOpenings, resolution: Resolution) -> float:
-    """Return about how long a map takes on all cores of this machine [s], to weigh it against other films."""
-    cells_x, count_e, count_s = resolution.nodes
-    solved = np.unique(symmetric_nodes(openings, count_e)[0]).size
-    states = bound_states(openings.grooves, resolution.largest_eccentricity_ratio)[1].shape[1]
-    work = DIRECTIONS + solved * cells_x * count_s + (CHECK_NODES + LOSS_CHECKS) * states
-    losses = LOSS_NODES * solved * (cells_x + 1) * 2 * (CELLS + 1)
-    cells = math.prod(resolution.cells) * work + math.prod(loss_cells(resolution.cells)) * losses
-    return NODE_TIME * cells / cores()
+    @property
+    def key(self) -> object:
+        """Openings in whole steps, length/diameter in nine digits, and resolution."""
+        angles = [angle for groove in self.openings.grooves for angle in (groove.center, groove.width)]
+        return [round(angle / TURN * STEPS) for angle in angles], f"{self.slenderness:.9g}", self.resolution
+
+    @property
+    def work(self) -> float:
+        """Nodes times cells; see `MapPlan`."""
+        (cells_x, _, count_s), cells = self.resolution.nodes, self.resolution.cells
+        solved, states = self.solved.size, self.states[1].shape[1]
+        nodes = DIRECTIONS + solved * cells_x * count_s + (CHECK_NODES + LOSS_CHECKS) * states
+        losses = LOSS_NODES * solved * (cells_x + 1) * 2 * (CELLS + 1)
+        return math.prod(cells) * nodes + math.prod(loss_cells(cells)) * losses
+
+    @property
+    def solved(self) -> np.ndarray:
+        """Numbers of the directions of e at which films are solved: others are images of theirs."""
+        return np.unique(symmetric_nodes(self.openings, self.resolution.nodes[1])[0])
+
+    @property
+    def states(self) -> tuple[list[float], Array, Array]:
+        """States of the bounds; see `bound_states`."""
+        return bound_states(self.openings.grooves, self.resolution.largest_eccentricity_ratio)
+
+    def film(self, cells: tuple[int, int]) -> RingKernel:
+        """Return the two-dimensional film on so many cells."""
+        geometry = FilmGeometry(grooves=self.openings.grooves)
+        grids = ring_grids(geometry, *cells, max(self.slenderness, LONG))
+        own = self.slenderness, ring_spans(geometry), grids, Complementarity()
+        return RingKernel(*own, mobility=self.resolution.mobility)
+
+    def parts(self) -> tuple[MapPart, ...]:
+        """Return potentials, losses, and a finer film; see `MapPlan`."""
+        return self.potential(), self._losses(), self._exact()
+
+    def potential(self) -> MapPart:
+        """Return the part with the spline coefficients of L0 and of M."""
+        film, (cells_x, count_e, count_s) = self.film(self.resolution.cells), self.resolution.nodes
+        theta, beta = node_angles(count_e, count_s)
+        chi = node_eccentricities(self.resolution.largest_eccentricity_ratio, cells_x)
+
+        def level(turn: float, chi: float) -> Array:
+            return log_potential(film, chi * np.array([np.cos(turn), np.sin(turn)]), turn + beta)[0]
+
+        columns = [partial(level, turn, each) for turn in theta[self.solved] for each in chi[1:]]
+
+        def fit(found: list[Array]) -> tuple[Array, Array]:
+            shape = len(self.solved), cells_x, -1
+            M = _exponents(found[0], np.reshape(found[1:], shape), self.openings, self.resolution)
+            return found[0][:, 0], _splines(M, self.resolution)
+
+        return MapPart([partial(_centered, film), *columns], fit)
+
+    def _losses(self) -> MapPart:
+        film, count = self.film(loss_cells(self.resolution.cells)), self.resolution.nodes[1]
+        turns, solved = (TURN / count * self.solved).tolist(), self.solved
+        pieces = [partial(node_losses_between, film, each, turn) for turn in turns for each in self._chi]
+        whole = partial(whole_losses, solved=solved, openings=self.openings, resolution=self.resolution)
+        return MapPart(pieces, lambda found: fitted_losses(whole(np.array(found)), self._chi))
+
+    @property
+    def _chi(self) -> Array:
+        return loss_eccentricities(self.resolution.largest_eccentricity_ratio, self.resolution.nodes[0])
+
+    def _exact(self) -> MapPart:
+        around, along = self.resolution.cells
+        film, finer = self.film((around, along)), self.film((2 * around, 2 * along))
+
+        def solution(e: Array, w: Array) -> Array:
+            return np.concatenate([reference(finer, e, w), bound_losses(film, e, w)])
+
+        return joined([partial(solution, *some) for some in batches(*self.states[1:])])
+
+    def finished(
+        self, potential: tuple[Array, Array], losses: tuple[Array, Array], exact: Array
+    ) -> GrooveMapTable:
+        """Return the map with its bounds; see `MapPlan`."""
+        table = GrooveMapTable(
+            slenderness=self.slenderness,
+            grooves=self.openings.grooves,
+            reach=float(stretch(self.resolution.largest_eccentricity_ratio)),
+            crowding=CROWDING,
+            log_center=potential[0],
+            coefficients=potential[1],
+            shear=losses[0],
+            flows=losses[1],
+            mobility=checksum_of(self.resolution.mobility),
+        )
+        return replace(table, bounds=groove_bounds(table, self.states, exact))
 
 
 def _splines(M: Array, resolution: Resolution) -> Array:
@@ -448,23 +472,18 @@ def whole_losses(
     return whole
 
 
-def _level(film: RingKernel, e: Array, phi: Array) -> Array:
-    """Return ln(-J), (D,), at the eccentricity e for unit sources at the angles phi."""
-    return log_potential(film, e, phi)[0]
-
-
 def node_angles(count_e: int, count_s: int) -> tuple[Array, Array]:
     """Return the angles of e, (count_e,), and those from e to w, (count_s,), of the nodes [rad]."""
     s = TURN * np.arange(count_s) / count_s
     return TURN * np.arange(count_e) / count_e, np.arctan2(np.sin(s), CROWDING * np.cos(s))
 
 
-def _centered(film: RingKernel) -> tuple[Array, Array]:
-    """Return spline coefficients of L0, (DIRECTIONS,), and of dL/de at the center, (DIRECTIONS, 2)."""
+def _centered(film: RingKernel) -> Array:
+    """Return spline coefficients of L0 and of dL/de at the center, (DIRECTIONS, 3)."""
     phi = TURN * np.arange(DIRECTIONS) / DIRECTIONS
     level, found = log_potential(film, np.zeros(2), phi, slopes=True)
     slope = -(richardson(*found.slope[:2]) / np.exp(level)).T
-    return periodic_quintic_coefficients(_smooth(level)), periodic_quintic_coefficients(_smooth(slope))
+    return periodic_quintic_coefficients(_smooth(np.column_stack([level, slope])))
 
 
 def _smooth(values: Array) -> Array:
@@ -478,22 +497,13 @@ def _smooth(values: Array) -> Array:
     return np.fft.irfft(spectrum, len(values), axis=0)
 
 
-def _column_places(resolution: Resolution, j: int) -> list[tuple[Array, Array]]:
-    """Return e, (2,), and directions of the source, (count_s,), of the nodes in one direction of e."""
-    cells_x, count_e, count_s = resolution.nodes
-    theta, beta = node_angles(count_e, count_s)
-    along = np.array([np.cos(theta[j]), np.sin(theta[j])])
-    chi = node_eccentricities(resolution.largest_eccentricity_ratio, cells_x)
-    return [(eccentricity * along, theta[j] + beta) for eccentricity in chi[1:]]
-
-
-def _exponents(
-    center: tuple[Array, Array], levels: Array, openings: AlignedOpenings, resolution: Resolution
-) -> Array:
+def _exponents(center: Array, levels: Array, openings: AlignedOpenings, resolution: Resolution) -> Array:
     """Return M at the nodes, (cells_x + 1, count_e, count_s), from ln(-J) at those that were solved.
 
     Parameters
     ----------
+    center : ndarray, shape (DIRECTIONS, 3)
+        As of `_centered`.
     levels : ndarray, shape (solved, cells_x, count_s)
     """
     cells_x, count_e, count_s = resolution.nodes
@@ -503,8 +513,9 @@ def _exponents(
     M = np.empty((cells_x + 1, count_e, count_s))
     for j, level in zip(np.unique(source).tolist(), levels, strict=True):
         turns = (theta[j] + beta) / TURN
-        M[0, j] = periodic_quintic(center[1], turns) @ [np.cos(theta[j]), np.sin(theta[j])]
-        M[1:, j] = (level - periodic_quintic(center[0], turns)) / chi[1:, None]
+        zero = periodic_quintic(center, turns)
+        M[0, j] = zero[:, 1:] @ [np.cos(theta[j]), np.sin(theta[j])]
+        M[1:, j] = (level - zero[:, 0]) / chi[1:, None]
     opposite = -np.arange(count_s) % count_s
     for j in range(count_e):
         M[:, j] = M[:, source[j]][:, opposite] if mirrored[j] else M[:, source[j]]

@@ -6,25 +6,26 @@ import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...core.errors import InputError, require_kind, require_number, require_positive
-from ...core.inputs import quantities
+from ...core.inputs import arguments, quantities
 from ...core.model import Array
 from ...core.progress import Report, silent
-from ...core.sources import source_digest
 from ...native import MapKernel
 from ...native.loss_kernels import LossKernel
 from ..films.finite_volumes import are_counts, require_cells
-from ..films.geometry import STEPS, TURN, AlignedOpenings, FilmGeometry, aligned_openings, require_mappable
+from ..films.geometry import AlignedOpenings, FilmGeometry, aligned_openings, require_mappable
 from ..films.law import FilmLosses, KernelFilm, gap_shear, kernel_losses, require_film, static_rate
-from ..films.map_table import cached_table, table_path, told
+from ..films.map_fit import nine_digits
 from ..films.mobility import Mobility, require_same_mobility, require_thickness_law
-from . import groove_map as groove_build
-from .groove_map import GrooveMapTable, Resolution, build_groove_table, expected_time, nearest
+from .groove_map import GrooveMap, GrooveMapTable, Resolution, nearest
 from .map_film import MapFilm
+
+if TYPE_CHECKING:
+    from .bearing import JournalBearing
 
 SAME = 2e-9
 """Angle [rad], and relative difference of length/diameter, below which a table is that of a bearing."""
@@ -174,27 +175,15 @@ class GroovedMapFilm(KernelFilm):
             raise InputError(
                 f"length/diameter must be {low:.9g} to {high:.9g} for this map, got {slenderness!r}"
             )
-        if self.table is not None:
-            return self.table
-        key = self._key(slenderness)
-        path = cache_path(*key)
-        telling = told(report, f"length/diameter {key[1]:.6g}", path.parent)
-        return cached_table(GrooveMapTable, path, lambda: build_groove_table(*key, telling))
+        return self._plan(slenderness).kept(report) if self.table is None else self.table
 
     def making_time(self, slenderness: float) -> float:
         """Return the estimated time to make the map on this machine [s]; 0 if it exists already."""
-        if self.table is not None:
-            return 0.0
-        openings, rounded, resolution = self._key(slenderness)
-        made = cache_path(openings, rounded, resolution).is_file()
-        return 0.0 if made else expected_time(openings, resolution)
+        return 0.0 if self.table is not None else self._plan(slenderness).making_time()
 
-    def _key(self, slenderness: float) -> tuple[AlignedOpenings, float, Resolution]:
-        """Return what decides the content of a map: openings, length/diameter and resolution."""
-        # So that L/D = 1/3 and its nine digits share a map.
-        rounded = float(f"{slenderness:.9g}")
+    def _plan(self, slenderness: float) -> GrooveMap:
         resolution = Resolution(self.cells, self.nodes, self.largest_eccentricity_ratio, self.mobility)
-        return aligned_openings(self.geometry), rounded, resolution
+        return GrooveMap(aligned_openings(self.geometry), nine_digits(slenderness), resolution)
 
     def _kernel(self, slenderness: float) -> MapKernel:
         return _kernels(self, float(slenderness))[0]
@@ -217,12 +206,42 @@ def require_same_openings(table: GrooveMapTable, openings: AlignedOpenings) -> N
         raise InputError(f"openings must be those of the table, {table.grooves!r}, got {openings.grooves!r}")
 
 
-# Maps of bearings with openings on disk: found again by what they depend on.
+@arguments
+def build_groove_map(bearing: JournalBearing, report: Report = silent) -> GrooveMapTable:
+    """Return the map of a bearing with grooves or several pads; made and kept on disk if it is not there yet.
 
+    Parameters
+    ----------
+    bearing : JournalBearing
+        Bearing with grooves or several pads, and a `MapFilm()` or a `GroovedMapFilm`.
+    report : callable, optional
+        Called with the fraction done, 0 to 1, and a text while a map is being made.
 
-def cache_path(openings: AlignedOpenings, slenderness: float, resolution: Resolution) -> Path:
-    """Return where the map of a bearing lies; the name is a digest of all that decides its content."""
-    angles = [angle for groove in openings.grooves for angle in (groove.center, groove.width)]
-    steps = [round(angle / TURN * STEPS) for angle in angles]
-    key = source_digest(groove_build.__name__), steps, f"{slenderness:.9g}", resolution
-    return table_path("groove", key)
+    Returns
+    -------
+    GrooveMapTable
+        The map. A `GroovedMapFilm(table=...)` needs neither the disk nor a compiler, for example in an FMU.
+
+    Raises
+    ------
+    InputError
+        If the bearing is plain or its film has no map.
+
+    Examples
+    --------
+    >>> from rotorfilm import Groove, GroovedMapFilm, JournalBearing, build_groove_map
+    >>> bearing = JournalBearing(
+    ...     radius=0.05, length=0.05, clearance=1e-4, viscosity=0.1,
+    ...     grooves=(Groove(center=0.0, width=0.35), Groove(center=3.1415926535, width=0.35)),
+    ...     film=GroovedMapFilm(cells=(32, 4), nodes=(6, 16, 12)),
+    ... )
+    >>> build_groove_map(bearing).slenderness
+    0.5
+    """
+    film = bearing.fitted_film
+    if not isinstance(film, GroovedMapFilm):
+        raise InputError(
+            "bearing must have openings, and a MapFilm() or GroovedMapFilm, for a map of its own, "
+            f"got {bearing!r}"
+        )
+    return film.built_table(bearing.slenderness, report)

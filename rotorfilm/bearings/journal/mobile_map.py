@@ -22,22 +22,24 @@ from ...core.errors import InputError, require_kind, require_positive
 from ...core.inputs import quantities
 from ...core.model import Array
 from ...core.progress import Report, silent
-from ...core.sources import source_digest
 from ...native import MapKernel, MapKind
 from ..films.finite_volumes import are_counts, reference, require_cells
 from ..films.geometry import FilmGeometry
 from ..films.law import FilmLosses, KernelFilm
 from ..films.map_fit import (
     MARGIN,
+    MapPart,
+    MapPlan,
     batches,
     even_shares,
     fit_map_table,
-    made_groups,
+    joined,
+    nine_digits,
     node_eccentricities,
     quintic_coefficients,
     state_errors,
 )
-from ..films.map_table import ERRORS, BoundedTable, cached_table, require_shapes, stretch, table_path, told
+from ..films.map_table import ERRORS, BoundedTable, require_shapes, stretch
 from ..films.mobility import Mobility, checksum_of, per_rate, require_mobility, require_same_mobility
 from .reynolds_film import ExtrapolatedFilm, ReynoldsFilm
 
@@ -51,8 +53,6 @@ BANDS = (0.5, 0.8, 0.9)
 
 STATES = 40
 """In each band."""
-
-TITLE = "map over the Reynolds number"
 
 
 @quantities
@@ -215,13 +215,7 @@ class MobileMapFilm(KernelFilm):
         """Return the map of this film: the given one, the one on disk, or a new one, which is then kept."""
         if self.table is not None:
             return self.table
-        resolution = self.cells, self.nodes, self.largest_eccentricity_ratio, self.largest_reynolds_number
-        rounded = float(f"{slenderness:.9g}")
-        path = table_path(
-            "mobile", (source_digest(__name__), rounded, *resolution, repr(self.mobility.at(1.0)))
-        )
-        telling = told(report, f"{TITLE}, length/diameter {rounded:.6g}", path.parent)
-        return cached_table(MobileMapTable, path, lambda: build_mobile_table(self, rounded, telling))
+        return MobileMap(self, nine_digits(slenderness)).kept(report)
 
     def _kernel(self, slenderness: float) -> MapKernel:
         return _kernel_of(self, float(slenderness))
@@ -238,41 +232,65 @@ def _table_of(film: MobileMapFilm, slenderness: float) -> MobileMapTable:
     return film.built_table(slenderness)
 
 
-def build_mobile_table(film: MobileMapFilm, slenderness: float, report: Report = silent) -> MobileMapTable:
-    """Return the map of a film for one length/diameter, made on all cores, with the bounds of its error."""
-    cells_x, cells_cos, cells_y = film.nodes
-    largest = film.largest_eccentricity_ratio
-    scale, most = film.axis
-    numbers = scale * np.expm1(np.linspace(0.0, math.log1p(most / scale), cells_y + 1))
-    chi, cos = node_eccentricities(largest, cells_x), np.linspace(-1.0, 1.0, cells_cos + 1)
-    # Where the journal leaves the wall the film is opposite, where lines are few.
-    away = 2 * film.cells[0], film.cells[1]
-    laws = [[_at(film, cells, each) for cells in (away, film.cells)] for each in numbers.tolist()]
-    rows = [partial(_levels, law, slenderness, each, cos) for law in laws for each in chi.tolist()]
-    reaches, e, w, reynolds = _states(film)
-    finer = 2 * film.cells[0], 2 * film.cells[1]
-    checks = [partial(_exact, film, finer, slenderness, *some) for some in batches(e, w, reynolds)]
-    found, exact = made_groups((rows, checks), report, TITLE)
-    levels = np.reshape(found, (cells_y + 1, cells_x + 1, cells_cos + 1))
-    levels[:, 0] = levels[:, 0].mean(axis=-1, keepdims=True)
-    own = {"slenderness_range": (slenderness, slenderness), "largest_eccentricity_ratio": largest}
-    layers = [fit_map_table(level[None], **own) for level in levels]  # type: ignore[arg-type]
-    over_y = quintic_coefficients(np.array([layer.coefficients[0] for layer in layers]))
-    table = MobileMapTable(
-        slenderness=slenderness,
-        mobility=checksum_of(film.mobility.at(1.0)),
-        reach=float(stretch(largest)),
-        largest_reynolds_number=most,
-        scale=scale,
-        log_center=quintic_coefficients(np.array([layer.log_center[0] for layer in layers])),
-        coefficients=np.ascontiguousarray(over_y.swapaxes(0, 1)),
-    )
-    kernel, known = table.kernel(1.0), np.concatenate(exact, axis=1)
-    own_answers = kernel.force(e, w, reynolds).values, kernel.jacobian(e, w, reynolds).values
-    errors = state_errors(*own_answers, known[:2], known[2:].reshape(2, 4, -1))
-    worst = [MARGIN * each.reshape(len(reaches), -1).max(axis=1) for each in errors]
-    unknown = np.full(len(reaches), math.inf)
-    return dataclasses.replace(table, bounds=np.stack([reaches, *worst, unknown, unknown], axis=1))
+@dataclass(frozen=True)
+class MobileMap(MapPlan[MobileMapTable]):
+    """The map of a film for one length/diameter [1]."""
+
+    film: MobileMapFilm
+    slenderness: float
+    kind = MobileMapTable
+    name = "mobile"
+    title = "map over the Reynolds number"
+
+    @property
+    def key(self) -> object:
+        """Length/diameter, resolution, and the mobility, of which one map serves all densities."""
+        film = self.film
+        resolution = film.cells, film.nodes, film.largest_eccentricity_ratio, film.largest_reynolds_number
+        return self.slenderness, *resolution, repr(film.mobility.at(1.0))
+
+    def parts(self) -> tuple[MapPart, ...]:
+        """Return potentials at all Reynolds numbers, and a finer film; see `MapPlan`."""
+        film, (cells_x, cells_cos, cells_y) = self.film, self.film.nodes
+        scale, most = film.axis
+        numbers = scale * np.expm1(np.linspace(0.0, math.log1p(most / scale), cells_y + 1))
+        cos = np.linspace(-1.0, 1.0, cells_cos + 1)
+        chi = node_eccentricities(film.largest_eccentricity_ratio, cells_x)
+        away, finer = (2 * film.cells[0], film.cells[1]), (2 * film.cells[0], 2 * film.cells[1])
+        # Where the journal leaves the wall the film is opposite, where lines are few.
+        laws = [[_at(film, cells, each) for cells in (away, film.cells)] for each in numbers.tolist()]
+        rows = [partial(_levels, law, self.slenderness, each, cos) for law in laws for each in chi.tolist()]
+        checks = [
+            partial(_exact, film, finer, self.slenderness, *some) for some in batches(*_states(film)[1:])
+        ]
+        shape = cells_y + 1, cells_x + 1, cells_cos + 1
+        return MapPart(rows, lambda found: np.reshape(found, shape)), joined(checks)
+
+    def finished(self, levels: Array, exact: Array) -> MobileMapTable:
+        """Return the map with its bounds; see `MapPlan`."""
+        film, slenderness = self.film, self.slenderness
+        levels[:, 0] = levels[:, 0].mean(axis=-1, keepdims=True)
+        largest, (scale, most) = film.largest_eccentricity_ratio, film.axis
+        own = {"slenderness_range": (slenderness, slenderness), "largest_eccentricity_ratio": largest}
+        layers = [fit_map_table(level[None], **own) for level in levels]  # type: ignore[arg-type]
+        over_y = quintic_coefficients(np.array([layer.coefficients[0] for layer in layers]))
+        table = MobileMapTable(
+            slenderness=slenderness,
+            mobility=checksum_of(film.mobility.at(1.0)),
+            reach=float(stretch(largest)),
+            largest_reynolds_number=most,
+            scale=scale,
+            log_center=quintic_coefficients(np.array([layer.log_center[0] for layer in layers])),
+            coefficients=np.ascontiguousarray(over_y.swapaxes(0, 1)),
+        )
+        reaches, *states = _states(film)
+        kernel = table.kernel(1.0)
+        own_answers = kernel.force(*states).values, kernel.jacobian(*states).values
+        errors = state_errors(*own_answers, exact[:2], exact[2:].reshape(2, 4, -1))
+        worst = [MARGIN * each.reshape(len(reaches), -1).max(axis=1) for each in errors]
+        unknown = np.full(len(reaches), math.inf)
+        bounds = np.stack([reaches, *worst, unknown, unknown], axis=1)
+        return dataclasses.replace(table, bounds=bounds)
 
 
 def _at(film: MobileMapFilm, cells: tuple[int, int], reynolds: float) -> ExtrapolatedFilm:

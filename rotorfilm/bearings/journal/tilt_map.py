@@ -15,21 +15,18 @@ import math
 from ctypes import addressof, byref
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
-from pathlib import Path
 
 import numpy as np
 
 from ...core.errors import InputError
 from ...core.inputs import quantities
 from ...core.model import Array
-from ...core.progress import Report, silent
-from ...core.sources import source_digest
 from ...native.library import loops
 from ...native.structs import constant, structure
 from ..films.finite_volumes import LONG, RingKernel, over_whole_length, ring_grids, ring_spans
 from ..films.geometry import Complementarity, FilmGeometry
-from ..films.map_fit import DEGREE, made_pieces, spline_weights
-from ..films.map_table import StoredTable, cached_table, require_shapes, stretch, table_path, told, unstretch
+from ..films.map_fit import DEGREE, MapPart, MapPlan, nine_digits, spline_weights
+from ..films.map_table import StoredTable, require_shapes, stretch, unstretch
 
 CELLS = (192, 12)
 """Cells of the films around and along half the length; the force is extrapolated from two grids."""
@@ -43,6 +40,11 @@ SITES = (28, 36)
 REACH = 0.96
 """Eccentricity ratio of the last node."""
 
+_SITES = (
+    unstretch((np.arange(SITES[0]) + 0.5) / SITES[0] * float(stretch(REACH))),
+    np.pi * (np.arange(SITES[1]) + 0.5) / SITES[1],
+)
+
 STEP = 0.05
 """Part of the least film that the tilt takes in the differences."""
 
@@ -54,8 +56,6 @@ PAIRS = ((0, 0), (0, 1), (1, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 2), (2, 3),
 
 CENTER_WEIGHT = 1e4
 """Of what a map is at the center, over that of a film near the wall."""
-
-TITLE = "map of tilts"
 
 
 @quantities
@@ -170,32 +170,35 @@ def second_order(film: RingKernel, chi: float, angle: float) -> Array:
     return np.array([math.log(-level), *(S[pair] for pair in PAIRS)])
 
 
-def build_tilt_table(
-    slenderness: float, report: Report = silent, *, cells: tuple[int, int] = CELLS
-) -> TiltMapTable:
-    """Return the map of tilts of a plain bearing, made on all cores from films on a grid.
+@dataclass(frozen=True)
+class TiltMap(MapPlan[TiltMapTable]):
+    """The map of tilts of a plain bearing of one length/diameter [1], from films on so many cells."""
 
-    Parameters
-    ----------
-    slenderness : float [1]
-        Length / diameter.
-    report : callable, optional
-    cells : (int, int)
-        Of the films, around and along half the length.
-    """
-    film, reach = whole_film(slenderness, cells), float(stretch(REACH))
-    chi = unstretch((np.arange(SITES[0]) + 0.5) / SITES[0] * reach)
-    angle = np.pi * (np.arange(SITES[1]) + 0.5) / SITES[1]
-    places = [(0.0, 0.0), *((each, turn) for each in chi.tolist() for turn in angle.tolist())]
-    pieces = [partial(second_order, film, *place) for place in places]
-    first, *found = made_pieces(pieces, report, TITLE)
-    middle = _smooth(first[None], np.zeros(1))[0]
-    rows = _smooth(np.reshape(found, (*SITES, -1)), chi[:, None])
-    odd = np.array([False, *((i + j) % 2 == 1 for i, j in PAIRS), False])
-    center = np.where(odd, 0.0, middle)
-    chords = np.where(odd, np.sin(angle)[:, None], 1.0) * chi[:, None, None]
-    coefficients = _fit((rows - center) / chords, chi, np.cos(angle), reach, np.where(odd, 1.0, -1.0))
-    return TiltMapTable(slenderness=slenderness, reach=reach, center=center, coefficients=coefficients)
+    slenderness: float
+    cells: tuple[int, int] = CELLS
+    kind = TiltMapTable
+    name = "tilt"
+    title = "map of tilts"
+
+    def parts(self) -> tuple[MapPart]:
+        """Return what films around the turn tell; see `MapPlan`."""
+        film = whole_film(self.slenderness, self.cells)
+        places = [(0.0, 0.0), *((each, turn) for each in _SITES[0].tolist() for turn in _SITES[1].tolist())]
+        return (MapPart([partial(second_order, film, *place) for place in places], list),)
+
+    def finished(self, found: list[Array]) -> TiltMapTable:
+        """Return the map; see `MapPlan`."""
+        chi, angle = _SITES
+        middle = _smooth(found[0][None], np.zeros(1))[0]
+        rows = _smooth(np.reshape(found[1:], (*SITES, -1)), chi[:, None])
+        odd = np.array([False, *((i + j) % 2 == 1 for i, j in PAIRS), False])
+        center = np.where(odd, 0.0, middle)
+        chords = np.where(odd, np.sin(angle)[:, None], 1.0) * chi[:, None, None]
+        reach, sense = float(stretch(REACH)), np.where(odd, 1.0, -1.0)
+        coefficients = _fit((rows - center) / chords, chi, np.cos(angle), reach, sense)
+        return TiltMapTable(
+            slenderness=self.slenderness, reach=reach, center=center, coefficients=coefficients
+        )
 
 
 def _smooth(found: Array, chi: Array) -> Array:
@@ -247,12 +250,7 @@ def kernel_of(table: TiltMapTable) -> TiltMapKernel:
 
 def has_tilt_map(slenderness: float) -> bool:
     """Return whether the map of tilts of a plain bearing lies on disk."""
-    return _path(slenderness).exists()
-
-
-def _path(slenderness: float) -> Path:
-    rounded = float(f"{slenderness:.9g}")
-    return table_path("tilt", (source_digest(__name__), rounded, CELLS, NODES, SITES, REACH, STEP))
+    return TiltMap(nine_digits(slenderness)).path.exists()
 
 
 @lru_cache(maxsize=16)
@@ -266,7 +264,7 @@ def tilt_kernel(slenderness: float) -> TiltMapKernel:
     """
     low, high = SLENDERNESSES
     if not low * (1.0 - 1e-9) <= slenderness <= high * (1.0 + 1e-9):
-        raise InputError(f"length/diameter must be {low:g} to {high:g} for a {TITLE}, got {slenderness!r}")
-    rounded, path = float(f"{slenderness:.9g}"), _path(slenderness)
-    telling = told(silent, f"length/diameter {rounded:.6g}", path.parent)
-    return TiltMapKernel(cached_table(TiltMapTable, path, lambda: build_tilt_table(rounded, telling)))
+        raise InputError(
+            f"length/diameter must be {low:g} to {high:g} for a map of tilts, got {slenderness!r}"
+        )
+    return TiltMapKernel(TiltMap(nine_digits(slenderness)).kept())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from typing import NamedTuple
@@ -12,7 +12,6 @@ import numpy as np
 
 from ...core.errors import InputError
 from ...core.model import Array
-from ...core.progress import Report, silent
 from ..films.finite_volumes import (
     LONG,
     RingKernel,
@@ -26,11 +25,12 @@ from ..films.finite_volumes import (
 )
 from ..films.geometry import TURN, Complementarity, FilmGeometry, Pad
 from ..films.map_fit import (
+    LOSS_NODES,
     MARGIN,
+    MapPart,
+    MapPlan,
     batches,
-    cores,
     even_shares,
-    made_groups,
     matrix_sizes,
     quintic_coefficients,
     state_errors,
@@ -102,19 +102,11 @@ REACH = 3.0
 ORDER = 4
 """Order of convergence, in the size of the cells, of the potential extrapolated from two grids."""
 
-NODE_TIME = 1.4e-7
-"""Time of a node for each cell of the finest grid [s], on a core of 2023."""
-
 CHECK_NODES = 9
 """Nodes that take as long as one state of the bounds, four times the cells and derivatives."""
 
-LOSS_NODES = 6
-"""Nodes that take as long as one of shear and flow, whose film begins anew."""
-
 LOSS_CHECKS = 40
 """The same of a state of their bounds, with four times the cells."""
-
-TITLE = "map of the pad"
 
 
 @dataclass(frozen=True)
@@ -239,10 +231,9 @@ def pad_exponents(
     return exponents
 
 
-def build_pad_table(
-    extent: float, slenderness: float, resolution: PadResolution, report: Report = silent
-) -> PadMapTable:
-    """Return the map of one pad, made on all cores, with the bounds of its error.
+@dataclass(frozen=True)
+class PadMap(MapPlan[PadMapTable]):
+    """The map of one pad.
 
     Half of the angles of the source are solved: M(u, -Y, -phi) = M(u, Y, phi).
 
@@ -253,38 +244,95 @@ def build_pad_table(
     slenderness : float [1]
         Length / diameter.
     resolution : PadResolution
-    report : callable, optional
-        Called with the fraction done and a text that says how long all of it takes, some hundred times.
-
-    Raises
-    ------
-    ConvergenceError
-        If the search for a ruptured zone does not end.
     """
-    *counts, count_phi = resolution.nodes
-    angles = node_angles(extent, count_phi)[count_phi // 2 :]
-    exponents = pad_exponents(extent, slenderness, resolution.cells, angles, resolution.mobility)
-    states = pad_states(extent, resolution.u_range, resolution.y_end)
-    nodes = [partial(exponents, e) for e in node_places(extent, *resolution.places).reshape(2, -1).T]
-    own = extent, slenderness, resolution.cells, resolution.mobility
-    checks = _checks(*own, states)
-    columns, loss_checks = _loss_pieces(*own)
-    levels, exact, losses, exact_losses = made_groups((nodes, checks, columns, loss_checks), report, TITLE)
-    half = _denser(np.moveaxis(np.reshape(levels, (*counts, 3, -1)), 2, 0), extent, resolution)
-    coefficients = np.concatenate([half[:, ::-1, ::-1], half], axis=2)
-    for axis in range(3):
-        coefficients = quintic_coefficients(coefficients, axis)
-    table = PadMapTable(
-        extent=extent,
-        slenderness=slenderness,
-        u_range=resolution.u_range,
-        y_end=resolution.y_end,
-        coefficients=coefficients,
-        losses=fitted_losses(np.array(losses)),
-        mobility=checksum_of(resolution.mobility),
-    )
-    known = np.concatenate(exact, axis=1), np.concatenate(exact_losses, axis=1)
-    return replace(table, bounds=pad_bounds(table, states, *known))
+
+    extent: float
+    slenderness: float
+    resolution: PadResolution
+    kind = PadMapTable
+    name = "pad"
+    title = "map of the pad"
+
+    @property
+    def label(self) -> str:
+        """Its extent and length/diameter."""
+        return f"{self.extent:.6g} rad, length/diameter {self.slenderness:.6g}"
+
+    @property
+    def work(self) -> float:
+        """Nodes times cells; see `MapPlan`."""
+        losses = LOSS_NODES * (LOSS_CELLS[0] + 1) * LOSS_CELLS[1] + LOSS_CHECKS * LOSS_STATES
+        nodes = math.prod(self.resolution.nodes) / 2 + CHECK_NODES * STATES + losses
+        return math.prod(self.resolution.cells) * nodes
+
+    @property
+    def states(self) -> PadStates:
+        """States of the bounds; see `pad_states`."""
+        return pad_states(self.extent, self.resolution.u_range, self.resolution.y_end)
+
+    def film(self, times: int) -> RingKernel:
+        """Return the two-dimensional film on so many times the cells."""
+        cells = times * self.resolution.cells[0], times * self.resolution.cells[1]
+        return pad_grid.__wrapped__(self.extent, self.slenderness, cells, self.resolution.mobility)
+
+    def parts(self) -> tuple[MapPart, ...]:
+        """Return potentials, losses, and a finer film; see `MapPlan`."""
+        film, finer = self.film(1), self.film(2)
+        places = [loss_places(self.extent, column) for column in range(LOSS_CELLS[1])]
+        columns = [partial(grid_losses, film, e, np.ones(e.shape[1])) for e in places]
+        checks = self._checks()
+        loss_checks = [partial(grid_losses, finer, *some) for some in batches(*loss_states(self.extent))]
+
+        def exact(found: list[Array]) -> list[Array]:
+            count = len(checks)
+            return [np.concatenate(part, axis=1) for part in (found[:count], found[count:])]
+
+        losses = MapPart(columns, lambda found: fitted_losses(np.array(found)))
+        return self.potential(), losses, MapPart([*checks, *loss_checks], exact)
+
+    def potential(self) -> MapPart:
+        """Return the part with the spline coefficients of M."""
+        extent, resolution = self.extent, self.resolution
+        *counts, count_phi = resolution.nodes
+        angles = node_angles(extent, count_phi)[count_phi // 2 :]
+        exponents = pad_exponents(extent, self.slenderness, resolution.cells, angles, resolution.mobility)
+        places = node_places(extent, *resolution.places).reshape(2, -1).T
+
+        def fit(levels: list[Array]) -> Array:
+            half = _denser(np.moveaxis(np.reshape(levels, (*counts, 3, -1)), 2, 0), extent, resolution)
+            coefficients = np.concatenate([half[:, ::-1, ::-1], half], axis=2)
+            for axis in range(3):
+                coefficients = quintic_coefficients(coefficients, axis)
+            return coefficients
+
+        return MapPart([partial(exponents, e) for e in places], fit)
+
+    def _checks(self) -> list[Callable[[], Array]]:
+        """Return the pieces of work, in the order of the states, that solve them on twice the cells."""
+        finer = 2 * self.resolution.cells[0], 2 * self.resolution.cells[1]
+
+        def solution(e: Array, w: Array, phi: Array) -> Array:
+            own = self.extent, self.slenderness, finer
+            films = [seen_film(*own, angle, self.resolution.mobility) for angle in phi.tolist()]
+            columns = [slice(k, k + 1) for k in range(len(films))]
+            return np.concatenate(
+                [film.reference(e[:, k], w[:, k]) for film, k in zip(films, columns, strict=True)], axis=1
+            )
+
+        return [partial(solution, *some) for some in batches(*self.states)]
+
+    def finished(self, coefficients: Array, losses: Array, exact: list[Array]) -> PadMapTable:
+        """Return the map with its bounds; see `MapPlan`."""
+        table = PadMapTable(
+            extent=self.extent,
+            slenderness=self.slenderness,
+            u_range=self.resolution.u_range,
+            y_end=self.resolution.y_end,
+            coefficients=coefficients,
+            losses=losses,
+            mobility=checksum_of(self.resolution.mobility),
+        )
+        return replace(table, bounds=pad_bounds(table, self.states, *exact))
 
 
 def _denser(found: Array, extent: float, resolution: PadResolution) -> Array:
@@ -299,52 +347,6 @@ def _denser(found: Array, extent: float, resolution: PadResolution) -> Array:
     spline = make_interp_spline(np.arange(n), by_y, k=5)
     M = between_nodes(M, by_u, (last - first) / (n - 1))
     return between_nodes(M.swapaxes(0, 1), spline(cells).swapaxes(0, 1), over_y).swapaxes(0, 1)
-
-
-def expected_time(resolution: PadResolution) -> float:
-    """Return about how long a map takes on all cores of this machine [s]."""
-    losses = LOSS_NODES * (LOSS_CELLS[0] + 1) * LOSS_CELLS[1] + LOSS_CHECKS * LOSS_STATES
-    work = math.prod(resolution.nodes) / 2 + CHECK_NODES * STATES + losses
-    return NODE_TIME * math.prod(resolution.cells) * work / cores()
-
-
-def _loss_pieces(
-    extent: float, slenderness: float, cells: tuple[int, int], mobility: Mobility | None
-) -> tuple[Sequence[Callable[[], Array]], Sequence[Callable[[], Array]]]:
-    """Return the pieces of work of shear and flow: at the nodes, a direction each, and for their bounds."""
-    film = pad_grid(extent, slenderness, cells, mobility)
-    finer = pad_grid.__wrapped__(extent, slenderness, (2 * cells[0], 2 * cells[1]), mobility)
-    places = [loss_places(extent, column) for column in range(LOSS_CELLS[1])]
-    columns = [partial(grid_losses, film, e, np.ones(e.shape[1])) for e in places]
-    return columns, [partial(grid_losses, finer, *some) for some in batches(*loss_states(extent))]
-
-
-def _checks(
-    extent: float,
-    slenderness: float,
-    cells: tuple[int, int],
-    mobility: Mobility | None,
-    states: PadStates,
-) -> list[Callable[[], Array]]:
-    """Return the pieces of work, in the order of the states, that solve them on twice the cells."""
-    finer = 2 * cells[0], 2 * cells[1]
-    own = extent, slenderness, finer, mobility
-    return [partial(_solved, *own, *some) for some in batches(states.e, states.phi)]
-
-
-def _solved(
-    extent: float,
-    slenderness: float,
-    cells: tuple[int, int],
-    mobility: Mobility | None,
-    e: Array,
-    phi: Array,
-) -> Array:
-    w = np.stack([np.cos(phi), np.sin(phi)])
-    films = [seen_film(extent, slenderness, cells, angle, mobility) for angle in phi.tolist()]
-    return np.concatenate(
-        [films[k].reference(e[:, k : k + 1], w[:, k : k + 1]) for k in range(len(films))], axis=1
-    )
 
 
 # How far the map of a pad is off: bounds from a film on finer grids at states all over its range.

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
-from pathlib import Path
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -14,12 +13,11 @@ from ...core.errors import InputError, require_kind, require_number, warn_user
 from ...core.inputs import quantities
 from ...core.model import Array
 from ...core.progress import Report, silent
-from ...core.sources import source_digest
 from ...native import MapKernel
 from ...native.film_kernels import FilmKernel
 from ..films.finite_volumes import RingKernel, over_whole_length, require_cells
 from ..films.law import continued
-from ..films.map_table import cached_table, table_path, told
+from ..films.map_fit import nine_digits
 from ..films.mobility import (
     Mobility,
     per_rate,
@@ -27,8 +25,7 @@ from ..films.mobility import (
     require_same_mobility,
     require_thickness_law,
 )
-from . import pad_build
-from .pad_build import CELLS, FINE, NEAR, PadResolution, build_pad_table, expected_time, pad_grid
+from .pad_build import CELLS, FINE, NEAR, PadMap, PadResolution, pad_grid
 from .pad_table import PadFlows, PadMapTable, grid_flows
 
 SAME = 2e-9
@@ -107,7 +104,8 @@ class PadMapFilm:
         InputError
             If an argument breaks its rule.
         """
-        return self._given(extent, slenderness) or pad_table(extent, slenderness, self.own_resolution, report)
+        given = self._given(extent, slenderness)
+        return given or pad_map(extent, slenderness, self.own_resolution).kept(report)
 
     def require_shape(self, extent: float, slenderness: float) -> None:
         """Raise InputError where there can be no map of pads of an extent [rad] and length/diameter."""
@@ -134,7 +132,7 @@ class PadMapFilm:
 
     def making_time(self, extent: float, slenderness: float) -> float:
         """Return about how long making the map of a pad takes [s]; 0 where it is on disk."""
-        return making_time(extent, slenderness, self.own_resolution)
+        return pad_map(extent, slenderness, self.own_resolution).making_time()
 
     def kernel(self, extent: float, slenderness: float) -> FilmKernel:
         """Return the compiled film of a pad; see `PadFilm`."""
@@ -248,9 +246,6 @@ EXTENTS = (0.1, 3.1)
 SLENDERNESSES = (0.05, 20.0)
 """Length/diameter for which a map can be made; a shorter film turns faster than the nodes can follow."""
 
-DIGITS = 9
-"""Of extent and length/diameter, so that pads of one shape share a map."""
-
 
 def is_pad_mappable(extent: float, slenderness: float) -> bool:
     """Return whether there can be a map of pads of an extent [rad] and length/diameter."""
@@ -259,60 +254,28 @@ def is_pad_mappable(extent: float, slenderness: float) -> bool:
 
 def require_mappable(extent: float, slenderness: float) -> None:
     """Raise InputError unless there can be a map of pads of an extent [rad] and length/diameter."""
-    for name, value, (low, high) in (
-        ("extent", extent, EXTENTS),
-        ("length/diameter", slenderness, SLENDERNESSES),
-    ):
+    rows = ("extent", extent, EXTENTS), ("length/diameter", slenderness, SLENDERNESSES)
+    for name, value, (low, high) in rows:
         if not low <= require_number(name, value) <= high:
             raise InputError(f"{name} must be {low} to {high} for a map of a pad, got {value!r}")
 
 
-Shape = tuple[float, float, PadResolution]
-"""Extent, length/diameter and resolution: what decides the content of a map."""
-
-
-def _map_file(extent: float, slenderness: float, resolution: PadResolution) -> tuple[Shape, Path]:
-    """Return the shape of a map, and where it lies; the name is a digest of all that decides its content."""
-    require_mappable(extent, slenderness)
-    shape = _rounded(extent), _rounded(slenderness), resolution.checked()
-    return shape, table_path("pad", (source_digest(pad_build.__name__), *shape))
-
-
-def _rounded(value: float) -> float:
-    return float(f"{value:.{DIGITS}g}")
-
-
-def pad_table(
-    extent: float,
-    slenderness: float,
-    resolution: PadResolution = FINE,
-    report: Report = silent,
-) -> PadMapTable:
-    """Return the map of a pad: the one on disk, or a new one, which is then kept.
+def pad_map(extent: float, slenderness: float, resolution: PadResolution = FINE) -> PadMap:
+    """Return how the map of a pad is made and kept; its shape is rounded to nine digits.
 
     Parameters
     ----------
     extent : float [rad]
-        Angle that the pad covers, 0.1 to 3.1; rounded to nine digits.
+        Angle that the pad covers, 0.1 to 3.1.
     slenderness : float [1]
-        Length / diameter, 0.05 to 20; rounded to nine digits.
+        Length / diameter, 0.05 to 20.
     resolution : PadResolution, optional
         A coarser one is made sooner.
-    report : callable, optional
-        Called with the fraction done, 0 to 1, and a text while a map is being made. Without it the log
-        says that one is being made.
 
     Raises
     ------
     InputError
         If an argument breaks its rule.
     """
-    shape, path = _map_file(extent, slenderness, resolution)
-    telling = told(report, f"{shape[0]:.6g} rad, length/diameter {shape[1]:.6g}", path.parent)
-    return cached_table(PadMapTable, path, lambda: build_pad_table(*shape, telling))
-
-
-def making_time(extent: float, slenderness: float, resolution: PadResolution = FINE) -> float:
-    """Return about how long making the map takes on this machine [s]; 0 where it is on disk."""
-    _, path = _map_file(extent, slenderness, resolution)
-    return 0.0 if path.is_file() else expected_time(resolution)
+    require_mappable(extent, slenderness)
+    return PadMap(nine_digits(extent), nine_digits(slenderness), resolution.checked())

@@ -9,12 +9,11 @@ from rotorfilm import Cooling, Groove, JournalBearing, Oil, ReynoldsFilm, coeffi
 from rotorfilm.bearings import AlignedOpenings, FilmGeometry, aligned_openings, static_rate
 from rotorfilm.bearings.journal import GroovedMapFilm
 from rotorfilm.bearings.journal.groove_map import (
+    GrooveMap,
     Resolution,
-    build_groove_table,
     images,
     loss_eccentricities,
     node_losses_between,
-    opened_film,
     opening_runs,
 )
 from rotorfilm.bearings.oil.heated_bearing import balance_temperature, effective_flow
@@ -113,8 +112,8 @@ def test_map_is_that_of_all_nodes_where_symmetry_saves_them():
     openings, resolution = aligned_openings(geometry), Resolution((32, 4), (6, 16, 12), 0.9)
     assert openings.mirrored
     assert openings.fold == 2
-    saved = build_groove_table(openings, 0.5, resolution)
-    whole = build_groove_table(AlignedOpenings(openings.grooves, openings.axis, False, 1), 0.5, resolution)
+    saved = GrooveMap(openings, 0.5, resolution).built()
+    whole = GrooveMap(AlignedOpenings(openings.grooves, openings.axis, False, 1), 0.5, resolution).built()
     e = states(40, 0.1, 0.6, 2)
     w = np.stack([e[1], -e[0]]) * np.sign(np.arange(40) - 19.5)
     one, two = (table.loss_kernel(0.0) for table in (saved, whole))
@@ -128,8 +127,8 @@ def test_map_is_that_of_all_nodes_where_symmetry_saves_them():
 def test_table_meets_its_nodes():
     geometry = FilmGeometry(grooves=(Groove(center=0.7, width=0.3), Groove(center=2.0, width=0.2)))
     openings, resolution = aligned_openings(geometry), Resolution((32, 4), (6, 16, 12), 0.9)
-    kernel = build_groove_table(openings, 0.5, resolution).loss_kernel(0.0)
-    film, j = opened_film(openings.grooves, 0.5, (16, 4)), 5
+    kernel = GrooveMap(openings, 0.5, resolution).built().loss_kernel(0.0)
+    film, j = GrooveMap(openings, 0.5, resolution).film((16, 4)), 5
     theta = 2.0 * np.pi * j / 16
     for chi in loss_eccentricities(0.9, 6)[[1, 4]]:
         nodes = node_losses_between(film, chi, theta)[:, :, 4]

@@ -15,7 +15,7 @@ from rotorfilm.bearings import Complementarity, FilmGeometry, FilmLaw, aligned_o
 from rotorfilm.bearings.films.finite_volumes import LONG, RingKernel, richardson, ring_grids, ring_spans
 from rotorfilm.bearings.films.map_fit import state_errors
 from rotorfilm.bearings.journal import GroovedMapFilm, JournalBearing, MapFilm, ReynoldsFilm, build_groove_map
-from rotorfilm.bearings.journal.groove_map import ORDER, Resolution, build_groove_table, symmetric_nodes
+from rotorfilm.bearings.journal.groove_map import ORDER, GrooveMap, Resolution, symmetric_nodes
 from rotorfilm.bearings.journal.map_film import packaged_table
 
 COARSE = {"cells": (32, 4), "nodes": (6, 12, 12)}
@@ -225,7 +225,7 @@ def test_mirror_in_the_axis_of_the_grooves(request, name, data):
 def test_groove_where_there_is_no_pressure_changes_nothing():
     # The journal at +x, turning and squeezing: pressure is where w.n > 0 and a little beyond, not at pi/2.
     geometry = FilmGeometry(grooves=(Groove(center=0.5 * np.pi, width=0.01),))
-    table = build_groove_table(aligned_openings(geometry), 0.5, Resolution((48, 8), (6, 48, 32), 0.9))
+    table = GrooveMap(aligned_openings(geometry), 0.5, Resolution((48, 8), (6, 48, 32), 0.9)).built()
     film = GroovedMapFilm(table=table).fitted(geometry)
     for chi in (0.3, 0.6, 0.8):
         e, w = np.array([chi, 0.0]), np.array([0.1, -0.5 * chi])
@@ -240,7 +240,7 @@ def test_groove_where_there_is_no_pressure_changes_nothing():
 def test_every_direction_finds_a_film_that_carries(count, width):
     grooves = tuple(Groove(center=2.0 * np.pi * k / count, width=np.radians(width)) for k in range(count))
     geometry = FilmGeometry(grooves=grooves)
-    table = build_groove_table(aligned_openings(geometry), 0.5, Resolution((64, 8), (6, 12, 12), 0.9))
+    table = GrooveMap(aligned_openings(geometry), 0.5, Resolution((64, 8), (6, 12, 12), 0.9)).built()
     e, w = np.zeros((2, 48)), unit(2.0 * np.pi * np.arange(48) / 48)
     force = GroovedMapFilm(table=table).fitted(geometry).force(e, w, 0.5)
     exact, _ = ReynoldsFilm(cells=(240, 16), geometry=geometry).extrapolated(e, w, 0.5)
@@ -263,7 +263,7 @@ def test_symmetric_nodes_are_solved_once():
 def test_map_without_symmetry_equals_that_of_the_film():
     geometry = FilmGeometry(grooves=(Groove(center=0.4, width=0.2), Groove(center=2.4, width=0.5)))
     resolution = Resolution((48, 4), (6, 32, 24), 0.8)
-    table = build_groove_table(aligned_openings(geometry), 1.0, resolution)
+    table = GrooveMap(aligned_openings(geometry), 1.0, resolution).built()
     e, w = random_states(60, highest=0.75)
     film = ReynoldsFilm(cells=(48, 4), geometry=geometry)
     exact, _ = film.extrapolated(e, w, 1.0)

@@ -11,8 +11,7 @@ from rotorfilm.bearings import FilmGeometry, aligned_openings
 from rotorfilm.bearings.films.map_fit import periodic_quintic, periodic_quintic_coefficients
 from rotorfilm.bearings.films.map_table import cache_folder, cached_table
 from rotorfilm.bearings.journal import GrooveMapTable
-from rotorfilm.bearings.journal.groove_map import CELLS, DIRECTIONS, Resolution
-from rotorfilm.bearings.journal.grooved_film import cache_path
+from rotorfilm.bearings.journal.groove_map import CELLS, DIRECTIONS, GrooveMap, Resolution
 
 GROOVES = (Groove(center=0.1, width=0.2), Groove(center=2.0, width=0.3))
 FINE = Resolution((96, 8), (8, 24, 24), 0.9)
@@ -146,16 +145,16 @@ def test_table_under_the_name_of_another_is_built_anew(tmp_path):
 
 def test_name_in_the_cache_tells_what_decides_the_content(tmp_path, monkeypatch):
     monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path))
-    here = cache_path(openings(), 0.5, FINE)
+    here = GrooveMap(openings(), 0.5, FINE).path
     assert here.parent == tmp_path
-    assert cache_path(openings(1.2345), 0.5, FINE) == here
+    assert GrooveMap(openings(1.2345), 0.5, FINE).path == here
     wider = aligned_openings(FilmGeometry(grooves=(GROOVES[0], dataclasses.replace(GROOVES[1], width=0.31))))
     others = {
-        cache_path(wider, 0.5, FINE),
-        cache_path(openings(), 0.51, FINE),
-        cache_path(openings(), 0.5, FINE._replace(cells=(128, 8))),
-        cache_path(openings(), 0.5, FINE._replace(nodes=(8, 24, 36))),
-        cache_path(openings(), 0.5, FINE._replace(largest_eccentricity_ratio=0.95)),
+        GrooveMap(wider, 0.5, FINE).path,
+        GrooveMap(openings(), 0.51, FINE).path,
+        GrooveMap(openings(), 0.5, FINE._replace(cells=(128, 8))).path,
+        GrooveMap(openings(), 0.5, FINE._replace(nodes=(8, 24, 36))).path,
+        GrooveMap(openings(), 0.5, FINE._replace(largest_eccentricity_ratio=0.95)).path,
     }
     assert len(others | {here}) == 6
 

@@ -42,7 +42,7 @@ RATE = np.array([2e-3, 4e-3, 2e-2, -4e-2])
 @pytest.fixture(scope="module")
 def table():
     """Return a map of tilts of L/D 1 from films on few cells."""
-    return tilt_map.build_tilt_table(1.0, cells=(96, 8))
+    return tilt_map.TiltMap(1.0, (96, 8)).built()
 
 
 @pytest.fixture(scope="module")

@@ -24,7 +24,7 @@ from rotorfilm import (
 )
 from rotorfilm.bearings import PadGridFilm, PadMapFilm, PadResolution, heat_surplus
 from rotorfilm.bearings.pads.pad_bearing import behind_pads
-from rotorfilm.bearings.pads.pad_build import build_pad_table, pad_grid
+from rotorfilm.bearings.pads.pad_build import PadMap, pad_grid
 
 DEGREE = np.pi / 180.0
 RADIUS, LENGTH, CLEARANCE, VISCOSITY, SPEED = 0.05, 0.05, 75e-6, 0.02, 314.0
@@ -37,7 +37,7 @@ STATES = [((1e-5, -1.5e-5), (2e-3, -1e-3), SPEED), ((-1.2e-5, 8e-6), (1e-3, 3e-3
 @pytest.fixture(scope="module")
 def film():
     extents = [160.0 * DEGREE, 100.0 * DEGREE]
-    return PadMapFilm(resolution=FAST, tables=tuple(build_pad_table(each, 0.5, FAST) for each in extents))
+    return PadMapFilm(resolution=FAST, tables=tuple(PadMap(each, 0.5, FAST).built() for each in extents))
 
 
 def bearing(film, lobes=None, **lubricant):

@@ -6,7 +6,7 @@ import pytest
 from rotorfilm.bearings import PadGridFilm, PadMapFilm, PadResolution
 from rotorfilm.bearings.films.law import gap_integral
 from rotorfilm.bearings.films.map_fit import periodic_quintic, periodic_quintic_coefficients, spline_slopes
-from rotorfilm.bearings.pads.pad_build import build_pad_table, loss_states, pad_grid
+from rotorfilm.bearings.pads.pad_build import PadMap, loss_states, pad_grid
 from rotorfilm.bearings.pads.pad_table import (
     LARGEST,
     PadMapTable,
@@ -25,7 +25,7 @@ SHAPES = ((60.0 * DEGREE, 0.5), (160.0 * DEGREE, 1.0))
 
 @pytest.fixture(scope="module", params=SHAPES, ids=["60 deg", "160 deg"])
 def table(request):
-    return build_pad_table(*request.param, FAST)
+    return PadMap(*request.param, FAST).built()
 
 
 def places(extent, count, most=0.9, seed=1):

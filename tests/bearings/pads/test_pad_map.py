@@ -9,15 +9,14 @@ import pytest
 from rotorfilm import Groove, InputError
 from rotorfilm.bearings import FilmGeometry, PadResolution, aligned_openings
 from rotorfilm.bearings.films import map_fit as table_pieces
-from rotorfilm.bearings.journal.groove_map import Resolution, build_groove_table
+from rotorfilm.bearings.journal.groove_map import GrooveMap, Resolution
 from rotorfilm.bearings.pads.pad_build import (
     FINE,
     LEAST_FILMS,
     ORDER,
+    PadMap,
     along_nodes,
     between_nodes,
-    build_pad_table,
-    expected_time,
     node_angles,
     node_places,
     pad_errors,
@@ -31,7 +30,13 @@ from rotorfilm.native import Status
 DEGREE = np.pi / 180.0
 COARSE = PadResolution(cells=(16, 4), nodes=(6, 6, 12), xi_range=(-0.3, 0.9))
 
-table = cache(build_pad_table)
+
+@cache
+def table(*shape):
+    """Return a map, made once."""
+    return PadMap(*shape).built()
+
+
 shapes = pytest.mark.parametrize(("extent", "slenderness"), [(60, 0.25), (100, 0.5), (150, 1.0)])
 
 
@@ -203,7 +208,7 @@ def test_two_pads_without_preload_are_the_map_with_two_openings():
     extent = 160.0 * DEGREE
     geometry = FilmGeometry(grooves=tuple(Groove(center=at, width=20.0 * DEGREE) for at in (0.0, np.pi)))
     openings = aligned_openings(geometry)
-    bore = build_groove_table(openings, 0.5, Resolution((96, 8), (12, 48, 48), 0.95))
+    bore = GrooveMap(openings, 0.5, Resolution((96, 8), (12, 48, 48), 0.95)).built()
     grooved = bore.kernel(openings.axis)
     rng, kernel = np.random.default_rng(2), table(extent, 0.5, FINE).kernel()
     chi, at, phi = rng.uniform((0.0, -np.pi, -np.pi), (0.8, np.pi, np.pi), (100, 3)).T
@@ -250,20 +255,20 @@ def test_number_of_threads_changes_no_bit(monkeypatch):
     contents = set()
     for threads in (1, 3):
         monkeypatch.setattr(table_pieces, "cores", lambda threads=threads: threads)
-        contents.add(build_pad_table(1.1, 0.5, COARSE).to_bytes())
+        contents.add(PadMap(1.1, 0.5, COARSE).built().to_bytes())
     assert len(contents) == 1
 
 
 def test_making_a_map_says_how_long_it_takes():
     said = []
-    build_pad_table(1.1, 0.5, COARSE, lambda fraction, text: said.append((fraction, text)))
+    PadMap(1.1, 0.5, COARSE).built(lambda fraction, text: said.append((fraction, text)))
     fractions = [fraction for fraction, _ in said]
     assert fractions == sorted(fractions)
     assert fractions[-1] == 1.0
     assert fractions[0] < 0.3
     assert {text for _, text in said} == {said[0][1]}
     assert said[0][1].startswith("map of the pad, about ")
-    assert expected_time(FINE) > expected_time(COARSE) > 0.0
+    assert PadMap(1.1, 0.5, FINE).work > PadMap(1.1, 0.5, COARSE).work > 0.0
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,8 @@ import pytest
 
 from rotorfilm import InputError, RotorfilmError
 from rotorfilm.bearings import PadMapFilm, PadResolution
-from rotorfilm.bearings.pads.pad_build import build_pad_table
-from rotorfilm.bearings.pads.pad_film import pad_table
+from rotorfilm.bearings.pads.pad_build import PadMap
+from rotorfilm.bearings.pads.pad_film import pad_map
 from rotorfilm.bearings.pads.pad_table import PadMapTable
 
 COARSE = PadResolution(cells=(16, 4), nodes=(6, 6, 12), xi_range=(-0.3, 0.9))
@@ -17,7 +17,7 @@ STATE = np.array([[0.3], [0.2]]), np.array([[0.4], [-0.7]])
 
 @pytest.fixture(scope="module")
 def made():
-    return build_pad_table(1.1, 0.5, COARSE)
+    return PadMap(1.1, 0.5, COARSE).built()
 
 
 @pytest.fixture
@@ -72,17 +72,19 @@ def test_table_that_breaks_a_rule_is_refused(made, changes, message):
 
 def test_map_is_made_once_for_a_shape_and_again_after_damage(folder, caplog):
     said = []
-    table = pad_table(np.pi / 3.0, 1.0 / 3.0, COARSE, lambda fraction, text: said.append(fraction))
+    table = pad_map(np.pi / 3.0, 1.0 / 3.0, COARSE).kept(lambda fraction, text: said.append(fraction))
     assert said[-1] == 1.0
     assert caplog.records == []
-    assert pad_table(float(f"{np.pi / 3.0:.9g}"), 0.333333333, COARSE, lambda *_: said.append(0.0)) == table
+    assert (
+        pad_map(float(f"{np.pi / 3.0:.9g}"), 0.333333333, COARSE).kept(lambda *_: said.append(0.0)) == table
+    )
     assert said[-1] == 1.0
     (path,) = folder.iterdir()
     assert path.name.startswith("pad-")
     path.write_bytes(path.read_bytes()[:-9] + b"damaged!!")
     with pytest.warns(RuntimeWarning, match="the map of the film is made again"):
-        assert pad_table(np.pi / 3.0, 1.0 / 3.0, COARSE, lambda *_: None) == table
-    assert pad_table(np.pi / 3.0, 1.0 / 3.0, COARSE) == table
+        assert pad_map(np.pi / 3.0, 1.0 / 3.0, COARSE).kept(lambda *_: None) == table
+    assert pad_map(np.pi / 3.0, 1.0 / 3.0, COARSE).kept() == table
     assert caplog.records == []
 
 
@@ -108,7 +110,7 @@ def test_name_in_the_cache_tells_what_decides_the_content(folder):
         (1.1, 0.5, dataclasses.replace(COARSE, reach=0.94)),
     ]
     for shape in shapes:
-        pad_table(*shape, lambda *_: None)
+        pad_map(*shape).kept(lambda *_: None)
     assert len(list(folder.iterdir())) == len(shapes)
 
 
@@ -123,4 +125,4 @@ def test_name_in_the_cache_tells_what_decides_the_content(folder):
 )
 def test_pad_without_a_map_is_refused(arguments, message):
     with pytest.raises(InputError, match=message):
-        pad_table(*arguments, COARSE)
+        pad_map(*arguments, COARSE).kept()

@@ -7,7 +7,7 @@ import pytest
 
 from rotorfilm import Cooling, InputError, Oil, coefficients, equilibrium, whirl_threshold
 from rotorfilm.bearings import PadGridFilm, PadMapFilm, PadResolution, heat_surplus
-from rotorfilm.bearings.pads.pad_build import build_pad_table, pad_grid
+from rotorfilm.bearings.pads.pad_build import PadMap, pad_grid
 from rotorfilm.bearings.pads.pads_at_rest import directions, turning
 
 DEGREE = np.pi / 180.0
@@ -19,7 +19,7 @@ OIL = Oil.iso_vg(46)
 
 @pytest.fixture(scope="module")
 def film():
-    return PadMapFilm(resolution=FAST, tables=(build_pad_table(60.0 * DEGREE, 0.5, FAST),))
+    return PadMapFilm(resolution=FAST, tables=(PadMap(60.0 * DEGREE, 0.5, FAST).built(),))
 
 
 @pytest.fixture
