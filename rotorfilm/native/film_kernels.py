@@ -190,7 +190,7 @@ class MapKernel(FilmKernel):
     def __init__(self, kind: MapKind, tables: Mapping[str, ArrayLike]) -> None:
         self._arguments = kind, tables
         self._function, self.openings = kind.value, kind is MapKind.GROOVED
-        self.sped = kind is MapKind.SPED
+        self.sped = kind is MapKind.SPED or "growth" in tables
         self._tables = as_floats(tables)
         number = constant(f"RF_{kind.name}")
         self.struct = taken(structure("rf_map")(), "rf_take_map", self._tables, number, b"")
@@ -239,10 +239,10 @@ def taken(struct: Any, function: str, tables: Mapping[str, Array], *arguments: A
     return struct
 
 
-def periodic(coefficients: Array, axis: int) -> Array:
-    """Return periodic coefficients as the kernel reads them: from the one two nodes back, five repeated."""
-    count = coefficients.shape[axis]
-    return np.take(coefficients, np.arange(-2, count + 3) % count, axis)
+def periodic(coefficients: Array, axis: int, degree: int = 5) -> Array:
+    """Return periodic coefficients as the kernel reads them: some nodes earlier, `degree` more."""
+    count, back = coefficients.shape[axis], degree // 2
+    return np.take(coefficients, np.arange(-back, count + degree - back) % count, axis)
 
 
 def run_batch(name: str, of: list[Any], n: int, given: list[Any], shape: tuple[int, ...]) -> Batch:

@@ -34,6 +34,9 @@ if TYPE_CHECKING:
 COARSE_MAP = pads.PadMapFilm(resolution=pads.PadResolution(cells=(48, 4), nodes=(12, 9, 40)))
 """Made in a tenth of the time of the map of a pad, with errors some ten times as large."""
 
+TURBULENT_MAP = pads.PadMapFilm(reynolds_cells=24)
+"""The map of a turbulent bearing, over the Reynolds number too."""
+
 GRIDS = (((48, 4), (1e-4, 2e-3)), ((96, 8), (1e-5, 1e-3)), ((192, 16), (2e-6, 5e-4)))
 """Cells, and orders of magnitude of the error of a position, and of K and C."""
 
@@ -79,7 +82,7 @@ class PadCandidate(FilmCandidate):
         bearing = self.reaction
         if isinstance(bearing, pads.PressureDamBearing) or not isinstance(bearing.film, pads.PadMapFilm):
             return math.inf
-        place, film = (at.position, at.speed), bearing.film
+        place, film = (at.position, at.speed), bearing.film_at_speed
         shares = (pads.lobe_share(bearing, film, lobe, *place) for lobe in bearing.lobes)
         force, stiffness, damping = (sum(parts) for parts in zip(*shares, strict=True))
         if not slopes:
@@ -136,6 +139,8 @@ def _maps(bearing: pads.LobedBearing) -> list[PadCandidate]:
     extents = {lobe.extent for lobe in bearing.lobes}
     if not all(pads.is_pad_mappable(extent, bearing.slenderness) for extent in extents):
         return []
+    if bearing.turbulence is not None:
+        return [_lobed_candidate(bearing, TURBULENT_MAP, "pad map", FINE, (1e-3, 2e-2))]
     coarse = _lobed_candidate(bearing, COARSE_MAP, "coarse pad map", FINE, (1e-4, 1e-3))
     fine = _lobed_candidate(bearing, pads.PadMapFilm(), "pad map", FINE, (1e-5, 5e-4))
     return [coarse, fine] if fine.makes_map else [fine]
@@ -148,12 +153,10 @@ def _lobed_candidate(
     rich: tuple[int, int],
     priors: tuple[float, float],
 ) -> PadCandidate:
-    making, extents = 0.0, {lobe.extent for lobe in bearing.lobes}
-    if isinstance(film, pads.PadMapFilm):
-        making = sum(film.making_time(extent, bearing.slenderness) for extent in extents)
     cells = math.prod(film.cells) if isinstance(film, pads.PadGridFilm) else 0
     own, richer = replace(bearing, film=film), replace(bearing, film=pads.PadGridFilm(cells=rich))
     call_time = len(bearing.lobes) * (CELL_TIME * cells or CALL_TIME)
+    making = own.making_time()
     return PadCandidate(name, own, richer, grid_name(rich), *priors, making=making, call_time=call_time)
 
 
@@ -306,20 +309,22 @@ def tilting_candidates(bearing: pads.TiltingPadBearing, *, fixed: bool) -> tuple
     ]
     if not pads.is_pad_mappable(bearing.extent, bearing.slenderness):
         return tuple(grids)
-    fine = _tilting_candidate(bearing, pads.PadMapFilm(), "pad map", (2e-5, 1e-3))
+    film, priors = (pads.PadMapFilm(), (2e-5, 1e-3))
+    if bearing.turbulence is not None:
+        film, priors = TURBULENT_MAP, (1e-3, 2e-2)
+    fine = _tilting_candidate(bearing, film, "pad map", priors)
     return tuple(grids) if fine.makes_map else (fine, *grids)
 
 
 def _tilting_candidate(
     bearing: pads.TiltingPadBearing, film: pads.PadFilm, name: str, priors: tuple[float, float]
 ) -> TiltingCandidate:
-    making, rich, call_time = 0.0, (96, 8), MAP_CALL
+    rich, call_time = (96, 8), MAP_CALL
     if isinstance(film, pads.PadGridFilm):
         rich = 2 * film.cells[0], 2 * film.cells[1]
         call_time = LOOKS * len(bearing.pivots) * CELL_TIME * math.prod(film.cells)
-    elif isinstance(film, pads.PadMapFilm):
-        making = film.making_time(bearing.extent, bearing.slenderness)
     own, richer = replace(bearing, film=film), replace(bearing, film=pads.PadGridFilm(cells=rich))
+    making = own.making_time()
     return TiltingCandidate(name, own, richer, grid_name(rich), *priors, making=making, call_time=call_time)
 
 

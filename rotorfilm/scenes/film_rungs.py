@@ -51,7 +51,7 @@ def film_rungs(bearing: journal.JournalBearing, *, fixed: bool) -> tuple[FilmRun
         rungs = _named(bearing, tabulated)
     elif tabulated:
         rungs = [_map(bearing), *_plain_films(bearing, tabulated), *_grids(bearing, tabulated)]
-    elif bearing.turbulence is not None:
+    elif bearing.turbulence is not None and plain:
         rungs = _grids(bearing, tabulated)
     elif plain:
         low, high = journal.MapFilm().slenderness_range
@@ -127,6 +127,8 @@ def _grooved_maps(bearing: journal.JournalBearing) -> list[FilmRung]:
     low, high = journal.GroovedMapFilm().slenderness_range
     if not (journal.is_mappable(bearing.geometry) and low <= bearing.slenderness <= high):
         return []
+    if bearing.turbulence is not None:
+        return [_opened("map with grooves", bearing, journal.GroovedMapFilm(), (1e-3, 3e-2))]
     fine = _opened("map with grooves", bearing, journal.GroovedMapFilm(), (1e-5, 1e-3))
     coarse = _opened("coarse map with grooves", bearing, COARSE_MAP, (3e-4, 5e-3))
     return [coarse, fine] if fine.makes_map else [fine]

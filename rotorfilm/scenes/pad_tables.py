@@ -275,10 +275,7 @@ def quick_pads(bearing: AnyPads) -> AnyPads:
     """Return a bearing with its own films, or on coarse grids where those would take long."""
     if isinstance(bearing, pad_bearings.PressureDamBearing):
         return replace(bearing, cells=DAM_CELLS)
-    film = bearing.film
-    if not isinstance(film, pad_bearings.PadMapFilm) or any(
-        film.making_time(extent, bearing.slenderness) for extent in bearing.extents
-    ):
+    if not isinstance(bearing.film, pad_bearings.PadMapFilm) or bearing.making_time():
         return replace(bearing, film=pad_bearings.PadGridFilm(cells=REMARK_CELLS))
     return bearing
 

@@ -204,6 +204,13 @@ def periodic_quintic_coefficients(values: Array, axis: int = 0) -> Array:
     return np.fft.irfft(np.moveaxis(spectrum, -1, axis), count, axis)
 
 
+def periodic_cubic_coefficients(values: Array, axis: int = 0) -> Array:
+    """Return the same of a cubic spline."""
+    turn = 2.0 * np.pi * np.arange(values.shape[axis] // 2 + 1) / values.shape[axis]
+    spectrum = np.moveaxis(np.fft.rfft(values, axis=axis), axis, -1) / ((2.0 + np.cos(turn)) / 3.0)
+    return np.fft.irfft(np.moveaxis(spectrum, -1, axis), values.shape[axis], axis)
+
+
 def periodic_quintic(coefficients: Array, turns: Array) -> Array:
     """Return the periodic spline of `periodic_quintic_coefficients` (axis 0) at fractions of a turn, (n,)."""
     count = len(coefficients)
@@ -220,6 +227,19 @@ def spline_weights(inside: Array) -> Array:
 def spline_slopes(inside: Array) -> Array:
     """Return the derivatives of the six B-splines of a cell by the fraction, shape (6, n)."""
     return _BASIS[:, 1:] @ (_POWERS[1:] * inside ** _POWERS[:-1])
+
+
+def cubic_coefficients(values: Array, axis: int = 0) -> Array:
+    """Return the `cells + 3` coefficients of the cubic spline through values, as `quintic_coefficients`."""
+    nodes = np.moveaxis(values, axis, 0)
+    cells = len(nodes) - 1
+    matrix = np.zeros((cells + 3, cells + 3))
+    for node in range(cells + 1):
+        matrix[node, node : node + 3] = 1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0
+    matrix[cells + 1, :5] = matrix[cells + 2, -5:] = 1.0, -4.0, 6.0, -4.0, 1.0
+    right = np.concatenate([nodes, np.zeros((2, *nodes.shape[1:]))])
+    solved = np.linalg.solve(matrix, right.reshape(len(right), -1))
+    return np.moveaxis(solved.reshape(right.shape), 0, axis)
 
 
 def _collocation(cells: int) -> Array:

@@ -194,6 +194,38 @@ class BoundedTable(StoredTable):
             )
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class GrownTable(BoundedTable):
+    """A map with what the Reynolds number of turbulent oil adds to it, where that is known.
+
+    Parameters
+    ----------
+    growth : ndarray, shape (cells_x + 3, cells_y + 3, cells_r + 3, cells_s + 5)
+        Spline coefficients of what M grows by, over r = ln(1 + Re/scale) beside the coordinates of the map.
+        They have nodes of their own, and are empty of a map for one mobility.
+    growth_center : ndarray, shape (cells_r + 3, directions)
+        Those of L0 of a map with openings, each direction centered on its node.
+    growth_axis : ndarray, shape (2,)
+        Scale in Reynolds numbers, and the last r; beyond it the force is that of this node.
+    """
+
+    growth: Array = field(default_factory=lambda: np.empty(0), repr=False)
+    growth_center: Array = field(default_factory=lambda: np.empty(0), repr=False)
+    growth_axis: Array = field(default_factory=lambda: np.empty(0))
+
+    def _require_growth(self) -> None:
+        if self.growth.size:
+            require_shapes(self, growth=(None, None, None, None), growth_axis=(2,))
+            if not np.all(self.growth_axis > 0.0):
+                raise InputError(f"growth_axis must be positive, got {self.growth_axis!r}")
+
+    def growth_tables(self, per_rate: float, density: float) -> dict[str, Array]:
+        """Return what the C library reads of the growth, at a Reynolds number over half the speed [s]."""
+        if not self.growth.size:
+            return {}
+        return {"growth": self.growth, "growth_map": np.array([*self.growth_axis, per_rate, density])}
+
+
 # The impedance map of every plain journal bearing as one table: collapsing, saving, loading.
 
 

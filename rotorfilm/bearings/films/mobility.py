@@ -218,6 +218,11 @@ def require_thickness_law(mobility: Mobility | None) -> None:
         )
 
 
+def law_of(mobility: Mobility | None) -> Mobility | None:
+    """Return the mobility that a map belongs to: one over the Reynolds number serves all densities."""
+    return mobility.at(1.0) if mobility is not None and mobility.density > 0.0 else mobility
+
+
 def checksum_of(mobility: Mobility | None) -> float:
     """Return the checksum of a mobility, 0 for none."""
     return 0.0 if mobility is None else mobility.checksum

@@ -42,15 +42,17 @@ from ..films.map_fit import (
     MapPart,
     MapPlan,
     batches,
+    cubic_coefficients,
     even_shares,
     joined,
     node_eccentricities,
+    periodic_cubic_coefficients,
     periodic_quintic,
     periodic_quintic_coefficients,
     quintic_coefficients,
     state_errors,
 )
-from ..films.map_table import ERRORS, BoundedTable, require_shapes, stretch, unstretch
+from ..films.map_table import ERRORS, GrownTable, require_shapes, stretch, unstretch
 from ..films.mobility import Mobility, checksum_of
 
 DIRECTIONS = 192
@@ -59,7 +61,7 @@ DIRECTIONS = 192
 
 @quantities
 @dataclass(frozen=True, kw_only=True, eq=False)
-class GrooveMapTable(BoundedTable):
+class GrooveMapTable(GrownTable):
     """The potential J of the film of one bearing with openings at ambient pressure.
 
     Parameters
@@ -86,7 +88,7 @@ class GrooveMapTable(BoundedTable):
         (relative to their largest entry), of the shear, and of the flow of fresh oil. It is empty if the
         errors are not known.
     mobility : float
-        Checksum of the mobility of its oil, 0 of a laminar film.
+        Checksum of the mobility of its oil, 0 of a laminar film. The growth is explained in `GrownTable`.
 
     Raises
     ------
@@ -114,6 +116,7 @@ class GrooveMapTable(BoundedTable):
             flows=(2, 2, len(self.grooves), cells_x, cells_e),
         )
         self._require_bounds()
+        self._require_growth()
         if not (0.0 < self.reach < np.inf and 0.0 < self.crowding <= 1.0 and 0.0 < self.slenderness < np.inf):
             raise InputError(
                 "slenderness and reach must be positive and crowding in (0, 1], "
@@ -125,16 +128,21 @@ class GrooveMapTable(BoundedTable):
         """Eccentricity ratio of the last node."""
         return float(unstretch(self.reach))
 
-    def kernel(self, axis: float) -> MapKernel:
-        """Return the compiled film, the axis of the openings being at this angle [rad]."""
-        return MapKernel(
-            MapKind.GROOVED,
-            {
-                "coefficients": periodic(periodic(self.coefficients, 1), 2),
-                "center": periodic(self.log_center, 0),
-                "map": [self.slenderness, self.reach, self.crowding, axis, float(self.mobility == 0.0)],
-            },
-        )
+    def kernel(self, axis: float, per_rate: float = 1.0, density: float = 1.0) -> MapKernel:
+        """Return the compiled film, the axis of the openings being at this angle [rad].
+
+        Where it grows its Reynolds number is `per_rate` [s] times half the speed, at a density [kg/m3].
+        """
+        numbers = [self.slenderness, self.reach, self.crowding, axis, float(self.mobility == 0.0)]
+        tables: dict[str, Any] = {
+            "coefficients": periodic(periodic(self.coefficients, 1), 2),
+            "center": periodic(self.log_center, 0),
+            "map": numbers,
+        }
+        if grown := self.growth_tables(per_rate, density):
+            grown["growth"] = periodic(periodic(self.growth, 1, 3), 3)
+            tables |= {**grown, "growth_center": periodic(self.growth_center, 1)}
+        return MapKernel(MapKind.GROOVED, tables)
 
     def loss_kernel(self, axis: float) -> LossKernel:
         """Return shear and flow in compiled code, the axis of the openings being at this angle [rad]."""
@@ -320,6 +328,10 @@ class Resolution(NamedTuple):
     largest_eccentricity_ratio: float
     mobility: Mobility | None = None
 
+    def with_mobility(self, mobility: Mobility) -> Resolution:
+        """Return this resolution for another oil."""
+        return self._replace(mobility=mobility)
+
 
 @dataclass(frozen=True)
 class GrooveMap(MapPlan[GrooveMapTable]):
@@ -377,7 +389,7 @@ class GrooveMap(MapPlan[GrooveMapTable]):
         return self.potential(), self._losses(), self._exact()
 
     def potential(self) -> MapPart:
-        """Return the part with the spline coefficients of L0 and of M."""
+        """Return the part with M at its nodes, and the spline coefficients of L0."""
         film, (cells_x, count_e, count_s) = self.film(self.resolution.cells), self.resolution.nodes
         theta, beta = node_angles(count_e, count_s)
         chi = node_eccentricities(self.resolution.largest_eccentricity_ratio, cells_x)
@@ -387,12 +399,40 @@ class GrooveMap(MapPlan[GrooveMapTable]):
 
         columns = [partial(level, turn, each) for turn in theta[self.solved] for each in chi[1:]]
 
-        def fit(found: list[Array]) -> tuple[Array, Array]:
+        def fit(found: list[Array]) -> list[Array]:
             shape = len(self.solved), cells_x, -1
             M = _exponents(found[0], np.reshape(found[1:], shape), self.openings, self.resolution)
-            return found[0][:, 0], _splines(M, self.resolution)
+            return [M, found[0][:, 0]]
 
         return MapPart([partial(_centered, film), *columns], fit)
+
+    def growth(self, M: Array, center: Array) -> tuple[Array, Array]:
+        """Return the coefficients of the growth of M, over r first, and of L0."""
+        cells_x, count_e, count_s = self.resolution.nodes
+        ghosts = -np.roll(M[:, :0:-1], (count_e // 2, count_s // 2), axis=(2, 3))
+        whole = cubic_coefficients(cubic_coefficients(np.concatenate([ghosts, M], axis=1), 1)[:, cells_x:])
+        whole = periodic_quintic_coefficients(periodic_cubic_coefficients(whole, 2), 3)
+        return whole, cubic_coefficients(center)
+
+    @property
+    def places(self) -> tuple[Array, Array]:
+        """Eccentricities and sources (2, n) of the states."""
+        return self.states[1:]
+
+    def solution(self, e: Array, w: Array) -> Array:
+        """Return force and derivatives, (10, n), at states (2, n) on twice the cells."""
+        around, along = self.resolution.cells
+        return reference(self.film((2 * around, 2 * along)), e, w)
+
+    def grown_bounds(self, table: GrooveMapTable, exact: Array, reynolds: Array) -> Array:
+        """Return the bounds of a map that grows, of its force, K and C, at Reynolds numbers (n,)."""
+        reaches, e, w = self.states
+        kernel = table.kernel(0.0)
+        found = kernel.force(e, w, reynolds).values, kernel.jacobian(e, w, reynolds).values
+        errors = state_errors(*found, exact[:2], exact[2:].reshape(2, 4, -1))
+        worst = [MARGIN * each.reshape(len(reaches), -1).max(axis=1) for each in errors]
+        unknown = np.full(len(reaches), math.inf)
+        return np.stack([reaches, *worst, unknown, unknown], axis=1)
 
     def _losses(self) -> MapPart:
         film, count = self.film(loss_cells(self.resolution.cells)), self.resolution.nodes[1]
@@ -414,17 +454,15 @@ class GrooveMap(MapPlan[GrooveMapTable]):
 
         return joined([partial(solution, *some) for some in batches(*self.states[1:])])
 
-    def finished(
-        self, potential: tuple[Array, Array], losses: tuple[Array, Array], exact: Array
-    ) -> GrooveMapTable:
+    def finished(self, potential: list[Array], losses: tuple[Array, Array], exact: Array) -> GrooveMapTable:
         """Return the map with its bounds; see `MapPlan`."""
         table = GrooveMapTable(
             slenderness=self.slenderness,
             grooves=self.openings.grooves,
             reach=float(stretch(self.resolution.largest_eccentricity_ratio)),
             crowding=CROWDING,
-            log_center=potential[0],
-            coefficients=potential[1],
+            log_center=potential[1],
+            coefficients=_splines(potential[0], self.resolution),
             shear=losses[0],
             flows=losses[1],
             mobility=checksum_of(self.resolution.mobility),

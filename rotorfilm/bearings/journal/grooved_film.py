@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,10 +19,12 @@ from ...native.loss_kernels import LossKernel
 from ..films.finite_volumes import are_counts, require_cells
 from ..films.geometry import AlignedOpenings, FilmGeometry, aligned_openings, require_mappable
 from ..films.law import FilmLosses, KernelFilm, gap_shear, kernel_losses, require_film, static_rate
-from ..films.map_fit import nine_digits
-from ..films.mobility import Mobility, require_same_mobility, require_thickness_law
+from ..films.map_fit import MapPlan, nine_digits
+from ..films.map_growth import GrowthMap, require_map_law
+from ..films.mobility import Mobility, law_of, per_rate, require_same_mobility
 from .groove_map import GrooveMap, GrooveMapTable, Resolution, nearest
 from .map_film import MapFilm
+from .reynolds_film import ReynoldsFilm
 
 if TYPE_CHECKING:
     from .bearing import JournalBearing
@@ -32,6 +34,10 @@ SAME = 2e-9
 
 GROOVED_RANGE = (0.05, 20.0)
 """Length/diameter for which a map can be made; a shorter film turns faster than the nodes can follow."""
+
+
+GROWTH: dict[str, Any] = {"cells": (64, 8), "nodes": (12, 36, 32)}
+"""Cells and nodes of what the Reynolds number adds to a map."""
 
 
 @quantities
@@ -65,8 +71,13 @@ class GroovedMapFilm(KernelFilm):
         Largest eccentricity ratio of the last node.
     mobility : Mobility or None
         How easily the oil flows over the thickness of the film (`mobility_of`); None for laminar flow. The
-        factor of its Couette flow is 1, and it does not change with the speed. Beyond the largest
-        eccentricity ratio the error is then unknown.
+        factor of its Couette flow is 1. Beyond the largest eccentricity ratio the error is then unknown. With
+        a density the map is over the Reynolds number too, and shear and flow are those of the film on the
+        grid.
+    reynolds_cells : int
+        Cells over the Reynolds number, where the mobility has a density.
+    reynolds_scale : float [m3/kg s]
+        Radius times clearance over viscosity, set by the bearing.
     table : GrooveMapTable, optional
         An existing map, which is then used without a search on disk.
     geometry : FilmGeometry
@@ -83,6 +94,8 @@ class GroovedMapFilm(KernelFilm):
     nodes: tuple[int, int, int] = (12, 72, 48)
     largest_eccentricity_ratio: float = 0.97
     mobility: Mobility | None = None
+    reynolds_cells: int = 24
+    reynolds_scale: float = field(default=0.0, repr=False)
     table: GrooveMapTable | None = None
     geometry: FilmGeometry = field(default_factory=FilmGeometry)
 
@@ -96,9 +109,9 @@ class GroovedMapFilm(KernelFilm):
             )
         require_kind("geometry", self.geometry, FilmGeometry, "a FilmGeometry")
         require_kind("table", self.table, GrooveMapTable | None, "a GrooveMapTable")
-        require_thickness_law(self.mobility)
+        require_map_law(self.mobility, self.reynolds_cells)
         if self.table is not None:
-            require_same_mobility(self.table.mobility, self.mobility)
+            require_same_mobility(self.table.mobility, law_of(self.mobility))
         if not self.geometry.plain:
             require_mappable(self.geometry)
             if self.table is not None:
@@ -121,9 +134,18 @@ class GroovedMapFilm(KernelFilm):
             raise InputError("table must be that of the bearing, got one with openings; take MapFilm()")
         return dataclasses.replace(self, geometry=geometry)
 
+    @property
+    def is_grown(self) -> bool:
+        """Whether its map is over the Reynolds number too."""
+        return self.mobility is not None and self.mobility.density > 0.0
+
+    def at_scale(self, reynolds_scale: float) -> GroovedMapFilm | None:
+        """Return this film in a bearing of these dimensions, if it changes with them; see `FilmOptions`."""
+        return dataclasses.replace(self, reynolds_scale=reynolds_scale) if self.is_grown else None
+
     def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
         """Return the kernel and its tables, made now if they are not there yet; see `FilmOptions`."""
-        tables = self._kernel(slenderness).tables
+        tables = _kernels(self, slenderness)[0].tables
         numbers = np.array([slenderness, *tables["map"][1:]])
         return "grooved_journal", {**tables, "map": numbers}
 
@@ -135,6 +157,9 @@ class GroovedMapFilm(KernelFilm):
         """
         flat = e.reshape(2, -1), w.reshape(2, -1)
         require_film(flat[0])
+        if self.is_grown:
+            own = ReynoldsFilm(cells=self.cells, mobility=self.mobility, reynolds_scale=self.reynolds_scale)
+            return own.fitted(self.geometry).losses(e, w, slenderness, rate)
         kernel = self.loss_kernel(slenderness)
         along = static_rate(e, w) if rate is None else np.broadcast_to(rate, e.shape[1:])
         openings, aligned = self.geometry.openings(), aligned_openings(self.geometry)
@@ -181,19 +206,36 @@ class GroovedMapFilm(KernelFilm):
         """Return the estimated time to make the map on this machine [s]; 0 if it exists already."""
         return 0.0 if self.table is not None else self._plan(slenderness).making_time()
 
-    def _plan(self, slenderness: float) -> GrooveMap:
-        resolution = Resolution(self.cells, self.nodes, self.largest_eccentricity_ratio, self.mobility)
-        return GrooveMap(aligned_openings(self.geometry), nine_digits(slenderness), resolution)
+    def _plan(self, slenderness: float) -> MapPlan[GrooveMapTable]:
+        law = law_of(self.mobility)
+        own = None if self.is_grown else self.mobility
+        resolution = Resolution(self.cells, self.nodes, self.largest_eccentricity_ratio, own)
+        laminar = GrooveMap(aligned_openings(self.geometry), nine_digits(slenderness), resolution)
+        if law is None or not self.is_grown:
+            return laminar
+        coarse = dataclasses.replace(laminar, resolution=resolution._replace(**GROWTH))
+        return GrowthMap(laminar, coarse, law, self.reynolds_cells)
 
     def _kernel(self, slenderness: float) -> MapKernel:
+        if self.is_grown and self.mobility is not None:
+            per_rate(self.mobility, self.reynolds_scale)
         return _kernels(self, float(slenderness))[0]
+
+
+@lru_cache(maxsize=16)
+def _table_of(film: GroovedMapFilm, slenderness: float) -> GrooveMapTable:
+    return film.built_table(slenderness)
 
 
 @lru_cache(maxsize=64)
 def _kernels(film: GroovedMapFilm, slenderness: float) -> tuple[MapKernel, LossKernel]:
-    """Return the compiled film of a bearing, and its losses."""
-    table, axis = film.built_table(slenderness), aligned_openings(film.geometry).axis
-    return table.kernel(axis), table.loss_kernel(axis)
+    """Return the compiled film of a bearing, and its losses; without one Re is the rate."""
+    scale, axis = film.reynolds_scale, aligned_openings(film.geometry).axis
+    table = _table_of(dataclasses.replace(film, reynolds_scale=0.0), slenderness)
+    if film.mobility is None or not film.is_grown:
+        return table.kernel(axis), table.loss_kernel(axis)
+    grown = per_rate(film.mobility, scale) if scale else 1.0
+    return table.kernel(axis, grown, film.mobility.density), table.loss_kernel(axis)
 
 
 def require_same_openings(table: GrooveMapTable, openings: AlignedOpenings) -> None:

@@ -39,14 +39,10 @@ from ..films.map_fit import (
     quintic_coefficients,
     state_errors,
 )
+from ..films.map_growth import reynolds_axis
 from ..films.map_table import ERRORS, BoundedTable, require_shapes, stretch
 from ..films.mobility import Mobility, checksum_of, per_rate, require_mobility, require_same_mobility
 from .reynolds_film import ExtrapolatedFilm, ReynoldsFilm
-
-SCALE, EDGE = 30.0, 5.236
-"""Reynolds number below which the nodes are uniform, and above which their logarithms are. Where a band of
-transition begins at a larger one, it is that over the second number: then both ends of the band can be nodes,
-as ln(1 + Re/scale) of them are as 3 to 4."""
 
 BANDS = (0.5, 0.8, 0.9)
 """Eccentricity ratios between which the largest error is sought; the last band ends with the map."""
@@ -177,12 +173,7 @@ class MobileMapFilm(KernelFilm):
     @property
     def axis(self) -> tuple[float, float]:
         """Scale and largest Reynolds number of y; a band of transition begins and ends at nodes."""
-        scale = self.mobility.scale
-        if scale <= SCALE:
-            return SCALE, self.largest_reynolds_number
-        cells, low = self.nodes[2], scale / EDGE
-        step = math.log1p(EDGE) / (3 * max(1, round(cells / 8)))
-        return low, low * math.expm1(step * cells)
+        return reynolds_axis(self.mobility, self.nodes[2], self.largest_reynolds_number)
 
     @property
     def slenderness_range(self) -> tuple[float, float]:

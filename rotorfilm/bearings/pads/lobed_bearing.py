@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -379,14 +380,15 @@ class LobedBearing(FilmReaction, PadBearing):
         extents = list(dict.fromkeys(self.extents))
         tables = {"slenderness": np.array([self.slenderness])}
         for number, extent in enumerate(extents):
-            kernel = self.film.table(extent, self.slenderness).kernel()
+            kernel: Any = self.film_at_speed.kernel(extent, self.slenderness)
             tables |= {f"{number}.{name}": numbers for name, numbers in kernel.tables.items()}
         rows = [(lobe.middle, *lobe.center, extents.index(lobe.extent)) for lobe in self.lobes]
         return journal_spec("lobed_journal", {"lobes": np.array(rows), **tables}, self.dimensions, fixed=True)
 
     def portable(self) -> LobedBearing:
         """Return this bearing with a film that carries the maps it needs; see `core.port.Reaction`."""
-        return replace(self, film=with_pad_tables(self.film, self.extents, self.slenderness))
+        found: LobedBearing = with_pad_tables(self)
+        return found
 
 
 # What the verified bounds of the maps of single pads leave open of a bearing of fixed ones at rest.
@@ -400,7 +402,7 @@ def lobe_share(
     The bounds are relative to force and matrices, or to `FLOOR` of their largest values over all directions.
     """
     table = film.table(lobe.extent, bearing.slenderness)
-    kernel, c, half = table.kernel(), bearing.clearance, 0.5 * speed
+    kernel, c, half = film.kernel(lobe.extent, bearing.slenderness), bearing.clearance, 0.5 * speed
     cos, sin = math.cos(lobe.middle), math.sin(lobe.middle)
     e = np.array([[cos, sin], [-sin, cos]]) @ (position / c - np.array(lobe.center))
     w = half * np.array([e[1], -e[0]])
@@ -408,9 +410,10 @@ def lobe_share(
     angle = np.append(np.arctan2(w[1], w[0]), (np.arange(DIRECTIONS) + 0.5) * 2.0 * np.pi / DIRECTIONS)
     places = np.repeat(e[:, None], angle.size, axis=1)
     around = np.stack([np.cos(angle), np.sin(angle)])
-    forces = size * np.hypot(*kernel.force(places, around).values)
+    rates = np.full(angle.size, half)
+    forces = size * np.hypot(*kernel.force(places, around, rates).values)
     # The slopes in the place are of degree one in the source, those in the source of degree zero.
-    by_e, by_w = matrix_sizes(kernel.jacobian(places, around).values) * np.array([[size], [1.0]])
+    by_e, by_w = matrix_sizes(kernel.jacobian(places, around, rates).values) * np.array([[size], [1.0]])
     own, by_e, by_w = (max(each[0], FLOOR * each.max()) for each in (forces, by_e, by_w))
     least = float(lobe.least_film(position / c))
     open_force, open_slopes = (table.bound(least, slopes=each) for each in (False, True))

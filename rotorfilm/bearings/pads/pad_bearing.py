@@ -96,7 +96,8 @@ class PadBearing(WarmBearing):
         Supply oil and surroundings that remove the heat; needed for a heat balance only. The carry-over is
         from pad to pad.
     turbulence : Turbulence or None
-        Turbulence model, for films on a grid: `PadMapFilm` becomes `PadGridFilm()`. None for laminar oil.
+        Turbulence model, for films on a grid and for a `PadMapFilm` with `reynolds_cells`; without them it
+        becomes `PadGridFilm()`. None for laminar oil.
 
     Raises
     ------
@@ -123,7 +124,7 @@ class PadBearing(WarmBearing):
             from .pad_film import PadGridFilm, PadMapFilm
 
             film = getattr(self, "film", None)
-            if isinstance(film, PadMapFilm):
+            if isinstance(film, PadMapFilm) and film.reynolds_cells == 0:
                 object.__setattr__(self, "film", PadGridFilm(mobility=film.mobility))
         require_lubricant(self.viscosity, self.oil, self.temperature, self.cooling)
         self._require_clearance()
@@ -206,6 +207,12 @@ class PadBearing(WarmBearing):
         if mobility is None or mobility.density == 0.0:
             return film
         return film.at_scale(self.radius * self.clearance / self.film_viscosity)
+
+    def making_time(self) -> float:
+        """Return about how long the maps of its pads take on this machine [s]; 0 if none is to be made."""
+        film: Any = with_mobility(getattr(self, "film", None), self.turbulent_mobility)
+        shapes = set(self.extents) if hasattr(film, "making_time") else ()
+        return float(sum(film.making_time(extent, self.slenderness) for extent in shapes))
 
     def film_at_unit_viscosity(self) -> None:
         """Return None: the loops in C over films with heat support a single film only."""

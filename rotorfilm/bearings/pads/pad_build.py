@@ -30,6 +30,7 @@ from ..films.map_fit import (
     MapPart,
     MapPlan,
     batches,
+    cubic_coefficients,
     even_shares,
     matrix_sizes,
     quintic_coefficients,
@@ -145,6 +146,10 @@ class PadResolution:
         if not 0.0 < self.reach < 1.0:
             raise InputError(f"reach must be in (0, 1), got {self.reach!r}")
         return self
+
+    def with_mobility(self, mobility: Mobility) -> PadResolution:
+        """Return this resolution for another oil."""
+        return replace(self, mobility=mobility)
 
     @property
     def u_range(self) -> tuple[float, float]:
@@ -270,6 +275,11 @@ class PadMap(MapPlan[PadMapTable]):
         """States of the bounds; see `pad_states`."""
         return pad_states(self.extent, self.resolution.u_range, self.resolution.y_end)
 
+    @property
+    def places(self) -> tuple[Array, Array]:
+        """Their eccentricities and sources (2, n)."""
+        return self.states[:2]
+
     def film(self, times: int) -> RingKernel:
         """Return the two-dimensional film on so many times the cells."""
         cells = times * self.resolution.cells[0], times * self.resolution.cells[1]
@@ -280,7 +290,7 @@ class PadMap(MapPlan[PadMapTable]):
         film, finer = self.film(1), self.film(2)
         places = [loss_places(self.extent, column) for column in range(LOSS_CELLS[1])]
         columns = [partial(grid_losses, film, e, np.ones(e.shape[1])) for e in places]
-        checks = self._checks()
+        checks = [partial(self.solution, *some) for some in batches(*self.places)]
         loss_checks = [partial(grid_losses, finer, *some) for some in batches(*loss_states(self.extent))]
 
         def exact(found: list[Array]) -> list[Array]:
@@ -291,38 +301,40 @@ class PadMap(MapPlan[PadMapTable]):
         return self.potential(), losses, MapPart([*checks, *loss_checks], exact)
 
     def potential(self) -> MapPart:
-        """Return the part with the spline coefficients of M."""
+        """Return the part with M at its nodes."""
         extent, resolution = self.extent, self.resolution
         *counts, count_phi = resolution.nodes
         angles = node_angles(extent, count_phi)[count_phi // 2 :]
         exponents = pad_exponents(extent, self.slenderness, resolution.cells, angles, resolution.mobility)
         places = node_places(extent, *resolution.places).reshape(2, -1).T
 
-        def fit(levels: list[Array]) -> Array:
+        def fit(levels: list[Array]) -> list[Array]:
             half = _denser(np.moveaxis(np.reshape(levels, (*counts, 3, -1)), 2, 0), extent, resolution)
-            coefficients = np.concatenate([half[:, ::-1, ::-1], half], axis=2)
-            for axis in range(3):
-                coefficients = quintic_coefficients(coefficients, axis)
-            return coefficients
+            return [np.concatenate([half[:, ::-1, ::-1], half], axis=2)]
 
         return MapPart([partial(exponents, e) for e in places], fit)
 
-    def _checks(self) -> list[Callable[[], Array]]:
-        """Return the pieces of work, in the order of the states, that solve them on twice the cells."""
+    def growth(self, M: Array) -> tuple[Array, Array]:
+        """Return the coefficients of the growth of M, over r first, and of L0, of which there are none."""
+        for axis in range(3):
+            M = cubic_coefficients(M, axis)
+        return quintic_coefficients(M, 3), np.empty(0)
+
+    def solution(self, e: Array, w: Array) -> Array:
+        """Return force and derivatives, (10, n), at states (2, n) on twice the cells."""
         finer = 2 * self.resolution.cells[0], 2 * self.resolution.cells[1]
+        own = self.extent, self.slenderness, finer
+        columns = []
+        for k, angle in enumerate(np.arctan2(w[1], w[0]).tolist()):
+            film = seen_film(*own, angle, self.resolution.mobility)
+            columns.append(film.reference(e[:, k : k + 1], w[:, k : k + 1]))
+        return np.concatenate(columns, axis=1)
 
-        def solution(e: Array, w: Array, phi: Array) -> Array:
-            own = self.extent, self.slenderness, finer
-            films = [seen_film(*own, angle, self.resolution.mobility) for angle in phi.tolist()]
-            columns = [slice(k, k + 1) for k in range(len(films))]
-            return np.concatenate(
-                [film.reference(e[:, k], w[:, k]) for film, k in zip(films, columns, strict=True)], axis=1
-            )
-
-        return [partial(solution, *some) for some in batches(*self.states)]
-
-    def finished(self, coefficients: Array, losses: Array, exact: list[Array]) -> PadMapTable:
+    def finished(self, potential: list[Array], losses: Array, exact: list[Array]) -> PadMapTable:
         """Return the map with its bounds; see `MapPlan`."""
+        (coefficients,) = potential
+        for axis in range(3):
+            coefficients = quintic_coefficients(coefficients, axis)
         table = PadMapTable(
             extent=self.extent,
             slenderness=self.slenderness,
@@ -333,6 +345,12 @@ class PadMap(MapPlan[PadMapTable]):
             mobility=checksum_of(self.resolution.mobility),
         )
         return replace(table, bounds=pad_bounds(table, self.states, *exact))
+
+    def grown_bounds(self, table: PadMapTable, exact: Array, reynolds: Array) -> Array:
+        """Return the bounds of a map that grows, of its force, K and C, at Reynolds numbers (n,)."""
+        errors = np.stack(pad_errors(table, self.states, exact, reynolds))
+        worst = _worst(least_film(self.states.e, self.extent), errors)
+        return np.column_stack([LEAST_FILMS, worst, np.full_like(worst, math.inf)])
 
 
 def _denser(found: Array, extent: float, resolution: PadResolution) -> Array:
@@ -396,7 +414,9 @@ def pad_states(extent: float, u_range: tuple[float, float], y_end: float, count:
     return PadStates(e, np.stack([np.cos(phi), np.sin(phi)]), phi)
 
 
-def pad_errors(table: PadMapTable, states: PadStates, exact: Array) -> tuple[Array, Array]:
+def pad_errors(
+    table: PadMapTable, states: PadStates, exact: Array, reynolds: Array | None = None
+) -> tuple[Array, Array]:
     """Return the errors of the force, and of K and C, (n,) each, of a map.
 
     Parameters
@@ -405,15 +425,18 @@ def pad_errors(table: PadMapTable, states: PadStates, exact: Array) -> tuple[Arr
     states : PadStates
     exact : ndarray, shape (10, n)
         Force and derivatives at the states.
+    reynolds : ndarray, shape (n,), optional
+        Reynolds numbers of a map that grows.
     """
     kernel, e = table.kernel(), states.e
+    rates = None if reynolds is None else np.repeat(reynolds, DIRECTIONS)
     phi = (np.arange(DIRECTIONS) + 0.5 - 0.5 * DIRECTIONS) * (np.pi + table.extent) / DIRECTIONS
     around = np.tile([np.cos(phi), np.sin(phi)], e.shape[1])
     places = np.repeat(e, DIRECTIONS, axis=1)
-    forces = np.hypot(*kernel.force(places, around).values).reshape(-1, DIRECTIONS)
-    matrices = matrix_sizes(kernel.jacobian(places, around).values).reshape(2, -1, DIRECTIONS)
+    forces = np.hypot(*kernel.force(places, around, rates).values).reshape(-1, DIRECTIONS)
+    matrices = matrix_sizes(kernel.jacobian(places, around, rates).values).reshape(2, -1, DIRECTIONS)
     least = FLOOR * forces.max(axis=1), FLOOR * matrices.max(axis=2)
-    found = kernel.force(e, states.w).values, kernel.jacobian(e, states.w).values
+    found = kernel.force(e, states.w, reynolds).values, kernel.jacobian(e, states.w, reynolds).values
     return state_errors(*found, exact[:2], exact[2:].reshape(2, 4, -1), least)
 
 

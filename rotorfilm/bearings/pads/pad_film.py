@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
-from typing import Protocol, runtime_checkable
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -17,19 +17,24 @@ from ...native import MapKernel
 from ...native.film_kernels import FilmKernel
 from ..films.finite_volumes import RingKernel, over_whole_length, require_cells
 from ..films.law import continued
-from ..films.map_fit import nine_digits
+from ..films.map_fit import MapPlan, nine_digits
+from ..films.map_growth import GrowthMap, require_map_law
 from ..films.mobility import (
     Mobility,
+    law_of,
     per_rate,
     require_mobility,
     require_same_mobility,
-    require_thickness_law,
+    with_mobility,
 )
 from .pad_build import CELLS, FINE, NEAR, PadMap, PadResolution, pad_grid
 from .pad_table import PadFlows, PadMapTable, grid_flows
 
 SAME = 2e-9
 """Relative difference of extent and length/diameter below which a map is that of a pad."""
+
+GROWTH: dict[str, Any] = {"cells": (48, 4), "nodes": (14, 14, 36)}
+"""Cells and nodes of what the Reynolds number adds to a map."""
 
 MUCH_PRELOAD = 0.5
 """Preload above which the default map goes on to thinner films."""
@@ -74,7 +79,12 @@ class PadMapFilm:
         Existing maps: pads of these shapes use them, without a search on disk.
     mobility : Mobility or None
         How easily the oil flows over the thickness of the film (`mobility_of`); None for laminar flow. The
-        factor of its Couette flow is 1, and it does not change with the speed.
+        factor of its Couette flow is 1. With a density the map is over the Reynolds number too.
+    reynolds_cells : int
+        Cells over the Reynolds number of a turbulent film. With 0 a turbulent bearing takes `PadGridFilm()`.
+        The map is then made in some 20 seconds; shear and flow are those of the film on the grid.
+    reynolds_scale : float [m3/kg s]
+        Radius times clearance over viscosity, set by the bearing where the mobility has a density.
     much_preload : bool
         Whether a pad has a preload above 0.5, which selects another default map. The bearing sets it.
     """
@@ -82,10 +92,12 @@ class PadMapFilm:
     resolution: PadResolution = FINE
     tables: tuple[PadMapTable, ...] = ()
     mobility: Mobility | None = None
+    reynolds_cells: int = 0
+    reynolds_scale: float = field(default=0.0, repr=False)
     much_preload: bool = field(default=False, repr=False)
 
     def __post_init__(self) -> None:
-        require_thickness_law(self.mobility)
+        require_map_law(self.mobility, self.reynolds_cells)
 
     def table(self, extent: float, slenderness: float, report: Report = silent) -> PadMapTable:
         """Return the map of a pad: a given one, the one on disk, or a new one, which is then kept.
@@ -105,7 +117,26 @@ class PadMapFilm:
             If an argument breaks its rule.
         """
         given = self._given(extent, slenderness)
-        return given or pad_map(extent, slenderness, self.own_resolution).kept(report)
+        if given is not None:
+            require_same_mobility(given.mobility, law_of(self.mobility))
+        return given or self._plan(extent, slenderness).kept(report)
+
+    def at_scale(self, reynolds_scale: float) -> PadMapFilm:
+        """Return this film in a bearing of this radius times clearance over viscosity [m3/kg s]."""
+        return replace(self, reynolds_scale=reynolds_scale)
+
+    @property
+    def is_grown(self) -> bool:
+        """Whether its map is over the Reynolds number too."""
+        return self.mobility is not None and self.mobility.density > 0.0
+
+    def _plan(self, extent: float, slenderness: float) -> MapPlan[PadMapTable]:
+        laminar = pad_map(extent, slenderness, self.own_resolution)
+        law = law_of(self.mobility)
+        if law is None or not self.is_grown:
+            return laminar
+        coarse = replace(laminar, resolution=replace(laminar.resolution, **GROWTH))
+        return GrowthMap(laminar, coarse, law, self.reynolds_cells)
 
     def require_shape(self, extent: float, slenderness: float) -> None:
         """Raise InputError where there can be no map of pads of an extent [rad] and length/diameter."""
@@ -115,7 +146,6 @@ class PadMapFilm:
     def _given(self, extent: float, slenderness: float) -> PadMapTable | None:
         shape = np.array([extent, slenderness])
         for table in self.tables:
-            require_same_mobility(table.mobility, self.mobility)
             if np.all(np.abs(np.array([table.extent, table.slenderness]) / shape - 1.0) < SAME):
                 return table
         return None
@@ -124,25 +154,36 @@ class PadMapFilm:
     def own_resolution(self) -> PadResolution:
         """Cells and nodes of the map of these pads; the default depends on their preload."""
         near = self.much_preload and self.resolution == FINE
-        return replace(NEAR if near else self.resolution, mobility=self.mobility)
+        mobility = None if self.is_grown else self.mobility
+        return replace(NEAR if near else self.resolution, mobility=mobility)
 
     def losses(self, extent: float, slenderness: float) -> Callable[[Array, Array], PadFlows]:
         """Return shear and flow of a pad at rest from its maps; see `LossyPadFilm`."""
-        return _kept(self, float(extent), float(slenderness))[0].flows
+        if self.is_grown:
+            own = PadGridFilm(mobility=self.mobility, reynolds_scale=self.reynolds_scale)
+            return own.losses(extent, slenderness)
+        return _table_of(self, float(extent), float(slenderness)).flows
 
     def making_time(self, extent: float, slenderness: float) -> float:
         """Return about how long making the map of a pad takes [s]; 0 where it is on disk."""
-        return pad_map(extent, slenderness, self.own_resolution).making_time()
+        return self._plan(extent, slenderness).making_time()
 
     def kernel(self, extent: float, slenderness: float) -> FilmKernel:
         """Return the compiled film of a pad; see `PadFilm`."""
-        return _kept(self, float(extent), float(slenderness))[1]
+        return _kernel_of(self, float(extent), float(slenderness))
 
 
 @lru_cache(maxsize=64)
-def _kept(film: PadMapFilm, extent: float, slenderness: float) -> tuple[PadMapTable, MapKernel]:
-    table = film.table(extent, slenderness)
-    return table, table.kernel()
+def _table_of(film: PadMapFilm, extent: float, slenderness: float) -> PadMapTable:
+    return film.table(extent, slenderness)
+
+
+@lru_cache(maxsize=64)
+def _kernel_of(film: PadMapFilm, extent: float, slenderness: float) -> MapKernel:
+    table = _table_of(replace(film, reynolds_scale=0.0), extent, slenderness)
+    if not film.is_grown or film.mobility is None:
+        return table.kernel()
+    return table.kernel(per_rate(film.mobility, film.reynolds_scale), film.mobility.density)
 
 
 @quantities
@@ -221,11 +262,14 @@ def fitted_pad_film(
     return replace(film, much_preload=max(preloads) > MUCH_PRELOAD)
 
 
-def with_pad_tables(film: PadFilm, extents: Sequence[float], slenderness: float) -> PadFilm:
-    """Return a film law that carries the maps of pads of these extents [rad]; see `core.port.Reaction`."""
+def with_pad_tables(bearing: Any) -> Any:
+    """Return a bearing whose film carries the maps of its pads; see `core.port.Reaction`."""
+    film = bearing.film
     if not isinstance(film, PadMapFilm):
-        return film
-    return replace(film, tables=tuple(film.table(extent, slenderness) for extent in dict.fromkeys(extents)))
+        return bearing
+    own: PadMapFilm = with_mobility(film, bearing.turbulent_mobility)
+    tables = tuple(own.table(extent, bearing.slenderness) for extent in dict.fromkeys(bearing.extents))
+    return replace(bearing, film=replace(film, tables=tables))
 
 
 def warn_beyond_map(least_films: Iterable[float], kernel: FilmKernel) -> None:

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import ClassVar, NamedTuple, Protocol, runtime_checkable
+from typing import Any, ClassVar, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -31,12 +31,12 @@ from ..films.map_fit import (
     spline_slopes,
     spline_weights,
 )
-from ..films.map_table import ERRORS, BoundedTable, require_shapes, stretch
+from ..films.map_table import ERRORS, GrownTable, require_shapes, stretch
 from ..films.mobility import sheared_gap
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class PadMapTable(BoundedTable):
+class PadMapTable(GrownTable):
     """The potential J of the film on one pad.
 
     Parameters
@@ -59,7 +59,7 @@ class PadMapTable(BoundedTable):
         equilibrium. `pad_bounds` tells what they are relative to; flows are relative to the inflow of a
         concentric pad.
     mobility : float
-        Checksum of the mobility of its oil, 0 of a laminar film.
+        Checksum of the mobility of its oil, 0 of a laminar film. The growth is explained in `GrownTable`.
 
     Raises
     ------
@@ -80,6 +80,7 @@ class PadMapTable(BoundedTable):
     def __post_init__(self) -> None:
         require_shapes(self, coefficients=(None, None, None), losses=LOSSES)
         self._require_bounds()
+        self._require_growth()
         numbers = self.extent, self.slenderness, self.y_end, self.u_range[1] - self.u_range[0]
         if not all(0.0 < number < np.inf for number in numbers) or self.extent >= np.pi:
             raise InputError(
@@ -87,10 +88,14 @@ class PadMapTable(BoundedTable):
                 f"got {self.extent!r}, {self.slenderness!r}, {self.y_end!r} and {self.u_range!r}"
             )
 
-    def kernel(self) -> MapKernel:
-        """Return the compiled film of the pad."""
+    def kernel(self, per_rate: float = 1.0, density: float = 1.0) -> MapKernel:
+        """Return the compiled film of the pad.
+
+        Where it grows its Reynolds number is `per_rate` [s] times half the speed, at a density [kg/m3].
+        """
         numbers = [self.extent, *self.u_range, self.y_end]
-        return MapKernel(MapKind.PAD, {"coefficients": self.coefficients, "map": numbers})
+        tables: dict[str, Any] = {"coefficients": self.coefficients, "map": numbers}
+        return MapKernel(MapKind.PAD, tables | self.growth_tables(per_rate, density))
 
     def flows(self, eccentricity: Array, rate: Array) -> PadFlows:
         """Return shear and flow of the pad under journals at rest; see `LossyPadFilm`."""

@@ -356,7 +356,7 @@ class TiltingPadBearing(Called, PadBearing):
             *(self.extent, self.pivot_offset, self.preload, self.pivot_stiffness or 0.0),
             *(self.reduced_inertia, self.pad_mass or 0.0, self.slenderness),
         )
-        tables = self.film.table(self.extent, self.slenderness).kernel().tables
+        tables = self.film_at_speed.kernel(self.extent, self.slenderness).tables
         return journal_spec(
             "tilting_journal" if self.pad_inertia is None else "heavy_tilting_journal",
             {"pivots": np.array(self.pivots), "pads": np.array(numbers), **tables},
@@ -366,7 +366,8 @@ class TiltingPadBearing(Called, PadBearing):
 
     def portable(self) -> TiltingPadBearing:
         """Return this bearing with a film that carries the map it needs; see `core.port.Reaction`."""
-        return replace(self, film=with_pad_tables(self.film, self.extents, self.slenderness))
+        found: TiltingPadBearing = with_pad_tables(self)
+        return found
 
     @property
     def _tilts(self) -> Array:

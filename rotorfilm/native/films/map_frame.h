@@ -113,6 +113,15 @@ static inline void rf_set_answer(const rf_frame *at, double potential, const rf_
     rf_set_damping(at, potential, turn, by->turn_turn, jacobian);
 }
 
+/* Derivatives of such a force by the rate, from those of L and of its slope in the angle of w: columns 8 and 9. */
+static inline void rf_set_rate(const rf_frame *at, double potential, const double by_rate[2], const double *f,
+                               double *jacobian)
+{
+    const double turned = at->size * potential * by_rate[1];
+    jacobian[8] = by_rate[0] * f[0] - turned * at->ny;
+    jacobian[9] = by_rate[0] * f[1] + turned * at->nx;
+}
+
 /* The status of an answer at X that may have overflown. */
 static inline int rf_judge(double x, double x_end, double *f, double *jacobian)
 {

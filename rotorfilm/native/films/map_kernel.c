@@ -124,9 +124,8 @@ int rf_sped_film(const void *of, const double *e, const double *w, double *f, do
     if (jacobian && y <= map->y.last && w[2] != 0.0) {
         const double per = copysign(map->per_rate / (map->scale + reynolds), w[2]);
         const double grown = per * (by.per * rf_dot(map->center + by.cell, by.slope) + at.chi * m.m_y);
-        const double turned = per * at.size * potential * at.chi * at.sin * m.m_ys;
-        jacobian[8] = grown * f[0] - turned * at.ny;
-        jacobian[9] = grown * f[1] + turned * at.nx;
+        const double by_rate[2] = {grown, per * at.chi * at.sin * m.m_ys};
+        rf_set_rate(&at, potential, by_rate, f, jacobian);
     }
     return rf_judge(fmax(x / map->x.last, y / map->y.last), 1.0, f, jacobian);
 }
@@ -187,6 +186,15 @@ static inline int weigh_open(const rf_axis *axis, double at, int order, rf_weigh
     return outside;
 }
 
+/* The same of cubic splines. */
+static void weigh_growth(const rf_axis *axis, double at, rf_weights *by)
+{
+    const double within = fmin(fmax(at, axis->first), axis->last), per = axis->cells / (axis->last - axis->first);
+    rf_weigh_cubic((within - axis->first) * per, axis->cells, per, by);
+    for (int j = 0; j < RF_CUBIC; ++j)
+        by->value[j] += (at - within) * per * by->slope[j];
+}
+
 /* At order 2 or 0, with L = 5 ln s + M. */
 static inline int pad_film(const rf_map *map, const double *e, const double *w, int order, double *f, double *jacobian)
 {
@@ -196,8 +204,10 @@ static inline int pad_film(const rf_map *map, const double *e, const double *w, 
     place at = {0.0, 0.0, 0.0, 0.0, 0.0};
     rf_weights by[3];
     rf_spline m = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-    if (rf_is_broken(state, 4))
+    if (rf_is_broken(state, 4) || (map->growth.coefficients && !isfinite(w[2])))
         return rf_fail(RF_NOT_FINITE, f, jacobian, 8);
+    for (int k = 8; jacobian && map->growth.coefficients && k < 10; ++k)
+        jacobian[k] = 0.0;
     if (set_place(map, e, order > 0, &at) != RF_OK)
         return rf_fail(RF_AT_WALL, f, jacobian, 8);
     to.size = rf_length(w[0], w[1]);
@@ -214,12 +224,29 @@ static inline int pad_film(const rf_map *map, const double *e, const double *w, 
     }
     int outside = weigh_open(&map->x, at.u, order, by);
     outside |= weigh_open(&map->y, at.y, order, by + 1);
-    rf_weigh_between(&map->s, 2.0 * atan(to.ny / (1.0 + to.nx)), order > 0 ? 2 : 1, by + 2);
+    const double phi = 2.0 * atan(to.ny / (1.0 + to.nx));
+    rf_weigh_between(&map->s, phi, order > 0 ? 2 : 1, by + 2);
     rf_evaluate(map->coefficients, 3, order, strides, by, &m);
+    double per = 0.0, by_rate[2];
+    if (map->growth.coefficients) {
+        const rf_map_growth *growth = &map->growth;
+        rf_weights rate;
+        outside |= rf_weigh_rate(growth, w[2], &rate, &per);
+        weigh_growth(&growth->x, at.u, by);
+        weigh_growth(&growth->y, at.y, by + 1);
+        rf_weigh_between(&growth->s, phi, order > 0 ? 2 : 1, by + 2);
+        rf_grow(growth, by, &rate, order, &m, by_rate);
+    }
     const rf_exponent slopes = {m.m, m.m_x * at.u_xi + m.m_y * at.y_xi, m.m_y * at.y_eta, m.m_s - 5.0 * to.ny / s,
                                 m.m_xs * at.u_xi + m.m_ys * at.y_xi, m.m_ys * at.y_eta,
                                 m.m_ss - 5.0 * (1.0 + to.nx * map->sine) / (s * s)};
-    rf_set_answer(&to, -(s * s) * (s * s) * s * exp(m.m), &slopes, 1.0, 0.0, f, jacobian);
+    const double potential = -(s * s) * (s * s) * s * exp(m.m);
+    rf_set_answer(&to, potential, &slopes, 1.0, 0.0, f, jacobian);
+    if (order > 0 && map->growth.coefficients) {
+        by_rate[0] *= per;
+        by_rate[1] *= per;
+        rf_set_rate(&to, potential, by_rate, f, jacobian);
+    }
     return rf_judge(outside, 0.0, f, jacobian);
 }
 

@@ -15,6 +15,9 @@
                                                         source is across the eccentricity;
        pad        L = 5 ln s + M(u, Y, phi)             in the frame of the pad, s = cos phi + sin b.
 
+   Of turbulent oil pads and bearings with openings add to M, and to L0, what the Reynolds number changes: splines over
+   the same coordinates and y, on nodes of their own (rf_map_growth).
+
    That M(-X, -cos) = -M(X, cos), and M(-X, theta + pi, s - pi) = -M(X, theta, s), makes J smooth through the center.
    L0 and the angles of a grooved map are periodic. Beyond the last X the film is that at the wall (wall.h).
 
@@ -38,6 +41,13 @@ typedef struct rf_axis {
     double first, last; /* nodes */
 } rf_axis;
 
+/* What the Reynolds number adds to a map; none without coefficients. */
+typedef struct rf_map_growth {
+    rf_axis x, y, s, r;                 /* of its nodes; r of ln(1 + Re/scale) */
+    const double *coefficients, *center; /* of M over x, y, r and s; of L0 over r and phi */
+    double scale, per_rate, density;    /* of the axis, Re over the rate [s], and density of the oil [kg/m3] */
+} rf_map_growth;
+
 typedef struct rf_map {
     rf_axis x, y, s;            /* X, theta and s; of a plain film X and cos alone, with y where it is sped; of a pad u, Y and
                                    phi */
@@ -50,6 +60,7 @@ typedef struct rf_map {
     double slenderness, share;  /* length/diameter of the film at the wall, 0 where it is not that; its share, 1 in units of
                                    a journal */
     double scale, per_rate;     /* of y, and Re over the rate [s] */
+    rf_map_growth growth;
 } rf_map;
 
 /* The film of a plain map. Beyond the last node, where that is no film at the wall, J goes on as a power of X:

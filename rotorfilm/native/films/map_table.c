@@ -54,6 +54,52 @@ static int set_coordinates(rf_map *map, int32_t kind, uint32_t given, const doub
     return n[0] > 0.0;
 }
 
+/* What the Reynolds number adds, where the tables have it. */
+static int take_growth(rf_map *map, int32_t kind, const char *of, const rf_tables *tables, rf_message *why)
+{
+    rf_message none;
+    const rf_table *c = find(of, "growth", 4, tables, &none);
+    if (!c)
+        return RF_OK;
+    const rf_table *numbers = find(of, "growth_map", 1, tables, why);
+    const rf_table *center = numbers && kind == RF_GROOVED ? find(of, "growth_center", 2, tables, why) : numbers;
+    if (!center)
+        return RF_INVALID;
+    int fits = numbers->extent[0] == 4;
+    for (int k = 0; k < 4; ++k)
+        fits = fits && c->extent[k] >= LEAST && c->extent[k] <= MOST;
+    for (int k = 0; fits && k < 4; ++k)
+        fits = numbers->numbers[k] > 0.0 && numbers->numbers[k] < HUGE_VAL;
+    if (kind == RF_GROOVED)
+        fits = fits && center->extent[0] == c->extent[2] && (int32_t)center->extent[1] == map->cells_w + 5;
+    if (!fits)
+        return rf_say(why, RF_INVALID, "%sgrowth must have coefficients that fit each other and four positive numbers", of);
+    rf_map_growth *to = &map->growth;
+    to->x = map->x;
+    to->y = map->y;
+    to->s = map->s;
+    to->x.cells = (int32_t)c->extent[0] - 3;
+    to->y.cells = (int32_t)c->extent[1] - 3;
+    to->r.cells = (int32_t)c->extent[2] - 3;
+    to->s.cells = (int32_t)c->extent[3] - 5;
+    if (kind == RF_PAD) {
+        to->s.last = map->s.last * (map->s.cells + 1) / map->s.cells * to->s.cells / (to->s.cells + 1);
+        to->s.first = -to->s.last;
+    }
+    to->coefficients = c->numbers;
+    to->center = center->numbers;
+    to->scale = numbers->numbers[0];
+    to->r.last = numbers->numbers[1];
+    to->per_rate = numbers->numbers[2];
+    to->density = numbers->numbers[3];
+    return RF_OK;
+}
+
+void rf_scale_growth(rf_map *map, const double *p)
+{
+    map->growth.per_rate = 2.0 * map->growth.density * (p[0] * p[2] / p[3]);
+}
+
 int rf_take_map(rf_map *map, int32_t kind, const char *of, const rf_tables *tables, rf_message *why)
 {
     const int plain = kind <= RF_LAYERED;
@@ -73,11 +119,12 @@ int rf_take_map(rf_map *map, int32_t kind, const char *of, const rf_tables *tabl
                       of, (unsigned)n[0], (unsigned)n[1], (unsigned)n[2], (unsigned)count, (unsigned)given);
     const rf_map found = {{(int32_t)n[plain] - 5, 0.0, 0.0}, {plain ? 0 : (int32_t)n[1] - 5, 0.0, RF_TURN},
                           {(int32_t)n[2] - 5, 0.0, RF_TURN}, c->numbers, center->numbers, (int32_t)count - 5,
-                          0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0};
+                          0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, {{0, 0.0, 0.0}, {0, 0.0, 0.0}, {0, 0.0, 0.0},
+                          {0, 0.0, 0.0}, NULL, NULL, 0.0, 0.0, 0.0}};
     *map = found;
     if (!set_coordinates(map, kind, given, numbers->numbers))
         return rf_say(why, RF_INVALID, "%smap must be numbers of a film, got %.9g and others", of, numbers->numbers[0]);
-    return RF_OK;
+    return kind == RF_GROOVED || kind == RF_PAD ? take_growth(map, kind, of, tables, why) : RF_OK;
 }
 
 int rf_map_slice(const double *numbers, size_t layers, size_t size, const double *range, double slenderness, double *own)

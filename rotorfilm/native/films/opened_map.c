@@ -21,8 +21,43 @@ static void center(const rf_map *map, double phi, int order, double out[3])
         out[2] = by.per * by.per * rf_dot(c, by.bend);
 }
 
-/* Along e. With chi factored out nothing is divided by it. */
-static rf_exponent exponent(const rf_map *map, const rf_frame *at, double x, double slope, int order)
+/* Add what the Reynolds number does to L0 and to M, with the derivatives by the rate of L and of its slope in phi. */
+static RF_ONCE int grow(const rf_map *map, const rf_frame *at, double x, const double angles[3], double by_b, double rate,
+                        int order, double zero[3], rf_spline *m, double by_rate[2])
+{
+    const rf_map_growth *growth = &map->growth;
+    const rf_axis turn = {map->cells_w, 0.0, RF_TURN};
+    const size_t width = rf_width(&turn);
+    const double per_x = growth->x.cells / growth->x.last, per_y = growth->y.cells / RF_TURN;
+    double turns = angles[0] / RF_TURN, per, row[RF_ORDER] = {0.0}, row_r[RF_ORDER] = {0.0}, moved[2] = {0.0, 0.0};
+    rf_weights by[3], of_rate, phi;
+    const int outside = rf_weigh_rate(growth, rate, &of_rate, &per);
+    turns -= floor(turns);
+    rf_weigh_cubic(x * per_x, growth->x.cells, per_x, by);
+    rf_weigh_cubic(turns * growth->y.cells, growth->y.cells, per_y, by + 1);
+    rf_weigh_angle(&growth->s, angles[1], order > 0 ? 2 : 1, by + 2);
+    rf_weigh_angle(&turn, angles[2], order > 0 ? 2 : 1, &phi);
+    if (order > 0)
+        rf_grow(growth, by, &of_rate, 2, m, moved);
+    else
+        rf_grow(growth, by, &of_rate, 0, m, moved);
+    const double *c = growth->center + of_rate.cell * width + phi.cell;
+    rf_add_rows(c, width, of_rate.value, row);
+    zero[0] += rf_dot(row, phi.value);
+    zero[1] += phi.per * rf_dot(row, phi.slope);
+    if (order > 0) {
+        zero[2] += phi.per * phi.per * rf_dot(row, phi.bend);
+        rf_add_rows(c, width, of_rate.slope, row_r);
+        by_rate[0] = per * (rf_dot(row_r, phi.value) + at->chi * moved[0]);
+        by_rate[1] = per * (phi.per * rf_dot(row_r, phi.slope) + at->chi * moved[1] * by_b);
+    }
+    return outside;
+}
+
+/* Along e. With chi factored out nothing is divided by it. With a growth `by_rate` has what `grow` tells, and 1 more
+   where the Reynolds number is beyond its nodes, else 0. */
+static rf_exponent exponent(const rf_map *map, const rf_frame *at, double x, double slope, int order, double rate,
+                            double by_rate[3])
 {
     const double q = map->squeeze, c = at->cos, s = -at->sin, chi = at->chi, bent = c * c + q * q * s * s;
     const double by_b = q / bent, by_bb = 2.0 * q * (1.0 - q * q) * s * c / (bent * bent);
@@ -31,10 +66,14 @@ static rf_exponent exponent(const rf_map *map, const rf_frame *at, double x, dou
     rf_weights by[3];
     rf_spline m = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     rf_weigh_from_zero(&map->x, x, order > 0, by);
-    rf_weigh_angle(&map->y, atan2(at->ry, at->rx) - map->axis, order > 0, by + 1);
-    rf_weigh_angle(&map->s, atan2(q * s, c), order > 0 ? 2 : 1, by + 2);
+    const double angles[3] = {atan2(at->ry, at->rx) - map->axis, atan2(q * s, c), atan2(at->ny, at->nx) - map->axis};
+    rf_weigh_angle(&map->y, angles[0], order > 0, by + 1);
+    rf_weigh_angle(&map->s, angles[1], order > 0 ? 2 : 1, by + 2);
     rf_evaluate(map->coefficients, 3, order, strides, by, &m);
-    center(map, atan2(at->ny, at->nx) - map->axis, order, zero);
+    center(map, angles[2], order, zero);
+    by_rate[2] = 0.0;
+    if (map->growth.coefficients)
+        by_rate[2] = grow(map, at, x, angles, by_b, rate, order, zero, &m, by_rate);
     rf_exponent of = {zero[0] + chi * m.m, 0.0, 0.0, zero[1] + chi * (m.m_s * by_b), 0.0, 0.0, 0.0};
     if (order > 0) {
         const double m_b = m.m_s * by_b, m_bb = m.m_ss * by_b * by_b + m.m_s * by_bb;
@@ -61,18 +100,19 @@ static rf_share left(double kept, double kept_side, double chi_end, double chi)
     return at;
 }
 
-static int beyond(const rf_map *map, const rf_frame *at, double *f, double *jacobian)
+static int beyond(const rf_map *map, const rf_frame *at, double rate, double *f, double *jacobian)
 {
     const double end = rf_unstretch(map->x.last);
     rf_frame edge = *at, straight = *at;
     rf_potential full;
+    double by_rate[3];
     edge.chi = straight.chi = end;
     straight.nx = at->rx;
     straight.ny = at->ry;
     straight.cos = 1.0;
     straight.sin = 0.0;
-    const rf_exponent here = exponent(map, &edge, map->x.last, 0.0, 2);
-    const rf_exponent towards = exponent(map, &straight, map->x.last, 0.0, 2);
+    const rf_exponent here = exponent(map, &edge, map->x.last, 0.0, 2, rate, by_rate);
+    const rf_exponent towards = exponent(map, &straight, map->x.last, 0.0, 2, rate, by_rate);
     rf_at_wall(map->slenderness, end, 1.0, 0.0, &full);
     const double kept = -exp(towards.value) / full.value;
     const rf_share part = left(kept, kept * (end * towards.across + towards.turn), end, at->chi);
@@ -85,17 +125,23 @@ static int beyond(const rf_map *map, const rf_frame *at, double *f, double *jaco
 int rf_groove_film(const void *of, const double *e, const double *w, double *f, double *jacobian)
 {
     const rf_map *map = of;
+    const int grown = map->growth.coefficients != NULL;
     rf_frame at;
-    double slope = 0.0;
-    const int status = rf_orient(e, w, &at);
+    double slope = 0.0, by_rate[3];
+    const double rate = grown ? w[2] : 0.0;
+    const int status = isfinite(rate) ? rf_orient(e, w, &at) : RF_NOT_FINITE;
+    for (int k = 8; jacobian && grown && k < 10; ++k)
+        jacobian[k] = 0.0;
     if (status == RF_UNDEFINED)
         return rf_rest(f, jacobian);
     if (status != RF_OK)
         return rf_fail(status, f, jacobian, 8);
     const double x = rf_stretch(at.chi, jacobian ? &slope : NULL);
     if (x > map->x.last * (1.0 + RF_ROUNDING))
-        return beyond(map, &at, f, jacobian);
-    const rf_exponent here = exponent(map, &at, x, slope, jacobian ? 2 : 0);
+        return beyond(map, &at, rate, f, jacobian);
+    const rf_exponent here = exponent(map, &at, x, slope, jacobian ? 2 : 0, rate, by_rate);
     rf_set_answer(&at, -exp(here.value), &here, at.rx, at.ry, f, jacobian);
-    return rf_judge(x, map->x.last, f, jacobian);
+    if (jacobian && grown)
+        rf_set_rate(&at, -exp(here.value), by_rate, f, jacobian);
+    return rf_judge(by_rate[2] > 0.0 ? HUGE_VAL : x, map->x.last, f, jacobian);
 }

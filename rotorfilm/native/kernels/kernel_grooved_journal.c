@@ -57,6 +57,7 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     if (rf_scale_journal(&scaled, p, why) != RF_OK
         || rf_judge_slenderness(self->map.slenderness, "map of the film", p, why) != RF_OK)
         return RF_INVALID;
+    rf_scale_growth(&self->map, p);
     self->journal = scaled;
     return RF_OK;
 }

@@ -90,6 +90,8 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     if (rf_scale_journal(&scaled, p, why) != RF_OK
         || rf_judge_slenderness(self->slenderness, "maps of the pads", p, why) != RF_OK)
         return RF_INVALID;
+    for (int k = 0; k < MOST_LOBES; ++k)
+        rf_scale_growth(&self->maps[k], p);
     for (size_t k = 0; k < self->lobes.count; ++k) {
         rf_lobe *lobe = &self->list[k];
         lobe->film.clearance = scaled.clearance;

@@ -108,6 +108,7 @@ int rf_set_tilting(void *kernel, const double *p, rf_message *why)
     if (rf_scale_journal(&scaled, p, why) != RF_OK
         || rf_judge_slenderness(m->slenderness, "map of a pad", p, why) != RF_OK)
         return RF_INVALID;
+    rf_scale_growth(&m->map, p);
     m->bearing.clearance = scaled.clearance;
     m->bearing.force_scale = scaled.force_scale;
     return RF_OK;
