@@ -32,7 +32,6 @@ from ..scenes.film_rungs import (
     tangent,
 )
 from ..scenes.journal_tables import ConservingTable
-from ..scenes.turbulent import quick
 from .heat_levels import field_rung
 from .variants import FunctionRung, counted_rung, with_estimate
 
@@ -268,8 +267,7 @@ def conserved_rungs(scene: Scene, question: Any) -> tuple[FunctionRung, ...]:
         return tuple(conserved_rung(question, film) for film in films)
     heat = partial(_heat_of_balance, question, films[0])
     uniform = tuple(conserved_rung(question, film, heat) for film in films)
-    levels = () if bearing.turbulence is not None else question.levels
-    return (*uniform, *(field_rung(question, level, any_candidate(films[0])) for level in levels))
+    return (*uniform, *(field_rung(question, level, any_candidate(films[0])) for level in question.levels))
 
 
 def conserved_rung(
@@ -311,14 +309,10 @@ def _other(cells: int, least: int) -> int:
 
 
 def _heat_of_balance(question: Any, film: JFOFilm) -> ErrorEstimate:
-    """Return the error by heat of a film of one temperature that conserves its oil.
-
-    A turbulent film has temperatures over it by Reynolds rupture only.
-    """
-    known: Any = film if film.bearing.turbulence is None else quick(film.bearing)
+    """Return the error by heat of a film of one temperature that conserves its oil."""
     try:
-        own = uniform_rest(known, question.load, question.speed)
-        steps = HeatSteps(known, own)
+        own = uniform_rest(film, question.load, question.speed)
+        steps = HeatSteps(film, own)
         found = question.judge.error(own, steps)
     except RotorfilmError as error:
         return ErrorEstimate(math.inf, "not known", doubt=f"its error by heat is not known: {error}")

@@ -145,8 +145,6 @@ def warm_field(
         film = replace(bearing, cells=cells)
         return journal.HeatedJFOFilm(film=film, walls=bush_of(film.bearing), profile=profile)
     around, along = cells
-    if bearing.turbulence is not None:
-        profile = journal.MeanTemperature()
     if isinstance(bearing, PadBearing):
         around *= (len(bearing.arcs) + 1) // 2  # as many on each pad as on one of two
     return journal.HeatedFilm(bearing=bearing, walls=bush_of(bearing), cells=(around, along), profile=profile)
@@ -206,11 +204,9 @@ PROFILE, CELLS = journal.LayeredTemperature(8), (80, 8)
 def richest_profile(bearing: Any) -> journal.FilmProfile:
     """Return the profile across the film towards which steps lead.
 
-    The oil beside a wall that takes no heat gets too hot: for tilting pads it is the mean. Eddies mix the oil
-    of turbulent films.
+    The oil beside a wall that takes no heat gets too hot: for tilting pads it is the mean.
     """
-    mixed = isinstance(bearing, TiltingPadBearing) or getattr(bearing, "turbulence", None) is not None
-    return journal.MeanTemperature() if mixed else PROFILE
+    return journal.MeanTemperature() if isinstance(bearing, TiltingPadBearing) else PROFILE
 
 
 HALF = (CELLS[0] // 2, CELLS[1] // 2)

@@ -294,10 +294,9 @@ static void try_energy(double odd)
     enum { LINES = 7, CELLS = 2, LAYERS = 3, COLUMNS = LINES * CELLS, ALL = COLUMNS * LAYERS };
     const size_t layers = uniform() < 0.5 ? 1 : LAYERS;
     const int grooved = uniform() < 0.3, opened = uniform() < 0.7;
-    const int turbulent = layers == 1 && uniform() < 0.5;
-    double fields[6][ALL], spread[LINES * LINES], oil[ALL], openings[3], bush[LINES], account[4];
+    double fields[7][ALL], spread[LINES * LINES], oil[ALL], openings[3], bush[LINES], account[4];
     int32_t opening[COLUMNS];
-    for (int k = 0; k < 6; ++k)
+    for (int k = 0; k < 7; ++k)
         for (int p = 0; p < ALL; ++p)
             fields[k][p] = k < 4 ? about(1.0, odd) : fabs(about(1.0, odd));
     for (int c = 0; c < COLUMNS; ++c)
@@ -306,7 +305,7 @@ static void try_energy(double odd)
         spread[k] = about(1e-3, odd);
     const rf_energy given = {LINES, CELLS, layers, 2 + (size_t)grooved, uniform() < 0.5, uniform() < 0.5, about(1.0, odd),
                              opening, grooved ? fields[0] : NULL, fields[1], fields[2], fields[3], fields[4], fields[5],
-                             fields[5], turbulent ? fields[5] : NULL, turbulent ? fields[4] : NULL, spread,
+                             fields[5], fields[6], spread,
                              1.0, 1.0, about(10.0, odd), about(1.0, odd), 1.0, about(10.0, odd)};
     if (rf_solve_energy(&given, oil, openings, bush, account) != RF_OK)
         return;

@@ -534,7 +534,8 @@ class ConservedFilm:
         Length / diameter.
     supply : Supply
     fluidity : Fluidity, optional
-        Fluidity of oil whose viscosity is not everywhere that of the units; cells keep it.
+        Fluidity of oil whose viscosity is not everywhere that of the units; cells keep it. Its shear is that
+        of the local Reynolds number.
     mobility : Mobility, optional
         Factors of a turbulent film. In the cavity those of shear and Couette flow are those of the full gap.
     reynolds_scale : float [m3/kg s]
@@ -708,16 +709,19 @@ class ConservedFilm:
         dragged = state.gap.face * self.dragged
         return float(2.0 * state.rate * np.sum(sheared) + 6.0 * np.sum(dragged * rise))
 
-    def sheared_area(self, state: ConservedState) -> Array:
+    def sheared_area(self, state: ConservedState, *, laminar: bool = False) -> Array:
         """Return the integral of theta/H and the factor of the shear over the cells of film, (N, M) [rad].
 
-        Up to the edges of openings: of the cell of an edge half is film, and full.
+        Up to the edges of openings: of the cell of an edge half is film, and full. That factor is 1 where the
+        integral is to be that of a laminar film.
         """
         cells, gap = self.cells, state.gap.line + self.cells.beside
         per_gap, film = 1.0 / gap, cells.opening == FILM
-        if self.mobility is not None:
-            local = self.mobility.at_rate(np.array([state.rate]), self.reynolds_scale)
-            per_gap *= self.mobility.factors(local * gap)[0][3]
+        if self.mobility is not None and not laminar:
+            local = self.mobility.at_rate(np.array([state.rate]), self.reynolds_scale) * gap
+            if self.fluidity is not None and self.mobility.density > 0.0:
+                local = local / self.fluidity.sheared
+            per_gap *= self.mobility.factors(local)[0][3]
         half = 0.5 * cells.spacing[:, None]
         before, behind = half * np.roll(per_gap[0], -1, axis=0), half * per_gap[1]
         own = state.solution.theta * (np.roll(before, 1, axis=0) + behind)
@@ -744,15 +748,19 @@ def shape_of(film: ConservedFilm) -> Any:
     """Return a film as C reads it, made once."""
     cells, supply = film.cells, film.supply
     given: tuple[Array | None, Array | None] = (None, None)
+    first, eased, thick = supply.end_pressure if cells.whole else supply.center_pressure, film.mobility, None
     if film.fluidity is not None:
         given = at_faces(film.fluidity.pressed, cells.opening != FILM), film.dragged
-    first, eased = supply.end_pressure if cells.whole else supply.center_pressure, film.mobility
+        if eased is not None and eased.density > 0.0:
+            opening, sheared = cells.opening != FILM, film.fluidity.sheared
+            along = np.hstack([sheared[:, :1], at_ends(sheared, opening)])
+            thick = np.append(at_faces(sheared, opening), along)
     none = structure("rf_mobility")()
     return in_c(
         "rf_oil_shape",
         *(*cells.opening.shape, len(supply.fed), cells.spacing, film.directions, cells.width, film.along),
         *(*given, cells.opening, supply.fed, supply.flow, supply.pressure),
-        *(first, supply.end_pressure, film.slenderness, cells.whole, cells.wall, cells.depth),
+        *(first, supply.end_pressure, film.slenderness, cells.whole, cells.wall, cells.depth, thick),
         none if eased is None else eased.struct(per_rate(eased, film.reynolds_scale)),
     )
 

@@ -192,13 +192,6 @@ def with_mobility(film: Any, mobility: Mobility | None) -> Any:
     return replace(film, mobility=mobility)
 
 
-def require_laminar(bearing: Any, user: str) -> None:
-    """Raise InputError where the film of a bearing is turbulent or has a mobility, which one cannot take."""
-    if getattr(bearing, "turbulence", None) is not None:
-        raise InputError(f"bearing must have turbulence=None for {user}, got {bearing.turbulence!r}")
-    require_no_mobility(bearing, user)
-
-
 def require_no_mobility(bearing: Any, user: str) -> None:
     """Raise InputError where the film of a bearing has a mobility of its own, which its user cannot take."""
     for one in (bearing, getattr(bearing, "film", None)):

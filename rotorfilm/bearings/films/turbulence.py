@@ -43,9 +43,6 @@ TO_ONSET, CELLS, SPREAD = 160, 1024, 30.0
 LAST = 1e5
 """Local Reynolds number to which the splines reach at least; beyond it the factors are powers of it [1]."""
 
-PRANDTL_POWER = 0.29
-"""Power of the Prandtl number by which the heat transfer of a turbulent film grows."""
-
 
 def onset(radius: float, clearance: float) -> float:
     """Return the Reynolds number up to which a film is laminar [1].
@@ -132,6 +129,11 @@ class EddyFilm(NamedTuple):
         return 2.0 * np.sum(self.weights * values, axis=0)
 
 
+def eddy_viscosity(y: Array) -> Array:
+    """Return Reichardt's eddy and molecular viscosity over the latter at y+ from a wall (1951)."""
+    return np.asarray(1.0 + KAPPA * (y - SUBLAYER * np.tanh(y / SUBLAYER)))
+
+
 def eddy_film(reynolds: Array) -> EddyFilm:
     """Return the film of some local Reynolds numbers: tau_c times the integral of 1/f is 1."""
     u = (0.5 * (1.0 + _PLACES)).reshape(-1, *(1,) * reynolds.ndim)
@@ -140,25 +142,10 @@ def eddy_film(reynolds: Array) -> EddyFilm:
     tau = np.ones_like(reynolds)
     for _ in range(_ROUNDS):
         y = s * np.sqrt(reynolds * tau)
-        f = 1.0 + KAPPA * (y - SUBLAYER * np.tanh(y / SUBLAYER))
+        f = eddy_viscosity(y)
         tau = 0.5 / np.sum(weights * 1.0 / f, axis=0)
     along = (1.0 - KAPPA * y * np.tanh(y / SUBLAYER) ** 2 / (2.0 * f)) / f
     return EddyFilm(tau, f, along, 0.5 - s, weights)
-
-
-def heat_transfer(reynolds: Array, prandtl: float) -> Array:
-    """Return Nu and N_w of turbulent Couette flow that its own dissipation warms, shape (2, ...).
-
-    Per area and kelvin k/h [Nu (T - (T_b + T_j)/2) + N_w (T_j - T_b)] goes into the bush, with the indices
-    exchanged into the journal; laminar 6 and 1. The turbulent Prandtl number is 0.9.
-    """
-    film = eddy_film(reynolds)
-    conducts = 1.0 + prandtl * (film.f - 1.0) / TURBULENT_PRANDTL
-    # The flux that reaches a place is the heat made between it and the middle; s falls from the wall.
-    made = film.weights / film.f
-    flux = np.sum(made, axis=0) - np.cumsum(made, axis=0) + 0.5 * made
-    rise = np.cumsum(film.weights * flux / conducts, axis=0) - 0.5 * film.weights * flux / conducts
-    return np.stack([np.sum(made, axis=0) / film.mean(rise), 1.0 / film.mean(1.0 / conducts)])
 
 
 def blend(reynolds: Array, edges: tuple[float, float] | None) -> Array:
@@ -282,20 +269,6 @@ def turbulent_factors(bearing: Any, speed: float, thickness: Array, viscosity: A
     return factors, slopes * local / factors
 
 
-def turbulent_transfer(bearing: Any, speed: float, thickness: Array, viscosity: Array) -> Array:
-    """Return Nu and N_w of `heat_transfer` in such films, shape (2, ...)."""
-    oil, effect = bearing.cooled[0], bearing.turbulence
-    mu, density = bearing.film_viscosity, bearing.film_density
-    heat = float(oil.volumetric_heat(bearing.cooled[1].supply_temperature))
-    prandtl = mu * heat / (density * oil.conductivity)
-    local = local_reynolds(bearing, speed, thickness, viscosity)
-    nodes, table = _transfer_table(prandtl)
-    laminar = np.array([6.0, 1.0]).reshape(2, *(1,) * local.ndim)
-    more = np.exp([np.interp(np.log1p(local / SPREAD), nodes, row) for row in table]) - laminar
-    share = blend(local, effect.edges(bearing.radius, bearing.onset_clearance))
-    return np.asarray(laminar + share * viscosity**PRANDTL_POWER * more)
-
-
 def is_turbulent(bearing: Any) -> bool:
     """Return whether the film of a bearing is turbulent above the onset, by it or by its mobility."""
     film = getattr(bearing, "film", None)
@@ -334,10 +307,3 @@ def _splines(closure: str, edges: tuple[float, float] | None) -> Mobility:
 def _cells(scale: float) -> int:
     """Return the cells of splines whose band begins at a Reynolds number, out to `LAST`."""
     return max(CELLS, math.ceil(math.log2(1.0 + LAST / scale) * TO_ONSET))
-
-
-@lru_cache(maxsize=16)
-def _transfer_table(prandtl: float) -> tuple[Array, Array]:
-    """Return nodes ln(1 + Re/30) and the logarithms of Nu and N_w there."""
-    nodes = np.linspace(0.0, math.log1p(LAST / SPREAD), 400)
-    return nodes, np.log(heat_transfer(SPREAD * np.expm1(nodes), prandtl))

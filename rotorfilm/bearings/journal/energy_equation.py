@@ -26,6 +26,7 @@ from ...core.readable import Readable
 from ...native import Status
 from ...native.library import loops
 from ...native.structs import structure
+from ..films.eddy_layers import laminar_moments, laminar_transfer
 from ..films.mass_conserving import Fluidity, contiguous
 from .film_flow import FilmFlow
 
@@ -208,6 +209,8 @@ class Heating(NamedTuple):
         Share of the oil that reaches an opening and clings to the shaft; None where none can leave there.
     walls : WallResponse or None
         None for walls that take no heat; of heat [W] of lines, ambients above the supply.
+    eddies : ndarray, shape (3, N, M, layers), or None [1]
+        Moments of the fluidity across a turbulent film, as of `eddy_moments`.
     """
 
     opening: np.ndarray
@@ -221,6 +224,7 @@ class Heating(NamedTuple):
     conductance: float
     carry_over: float | None
     walls: WallResponse | None
+    eddies: Array | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -286,7 +290,9 @@ class FilmProfile:
 
     with the flow of the pressure itself shared by the layers as their viscosities have it, u_y from the
     balance of each layer, and the walls by one-sided differences of second order. Fluxes are those of the
-    pressure itself, upwind: heat is accounted for to the last digit on any grid.
+    pressure itself, upwind: heat is accounted for to the last digit on any grid. In a turbulent film each
+    layer has the eddy viscosity of Couette flow and what this conducts, with the flows and the power of the
+    mobility.
     """
 
     layers: int = 1
@@ -295,10 +301,11 @@ class FilmProfile:
         """Return the shape of a temperature of cells (N, M)."""
         return cells if self.layers == 1 else (*cells, self.layers)
 
-    def fluidity(self, viscosity: Array) -> Fluidity:
-        """Return how easily oil of a relative viscosity, of `shape`, flows."""
-        shares = layer_shares(1.0 / viscosity.reshape(*viscosity.shape[:2], self.layers))
-        return Fluidity(12.0 * shares.F2, shares.dragged.sum(axis=-1), 1.0 / shares.F0)
+    def fluidity(self, viscosity: Array, eddies: Array | None) -> Fluidity:
+        """Return how easily oil of a relative viscosity, of `shape`, flows, by `Heating.eddies`."""
+        shares = layer_shares(1.0 / viscosity.reshape(*viscosity.shape[:2], self.layers), eddies)
+        uniform = layer_shares(np.ones(self.layers), eddies).F2
+        return Fluidity(shares.F2 / uniform, shares.dragged.sum(axis=-1), 1.0 / shares.F0)
 
     def warm(self, heating: Heating) -> HeatSolution:
         """Return the temperature of a film, from one linear system.
@@ -314,14 +321,18 @@ class FilmProfile:
             field.reshape(*film.shape[:2], self.layers)
             for field in (heating.viscosity, heating.thinning, heating.temperature)
         )
-        shares = layer_shares(1.0 / viscosity)
+        shares = layer_shares(1.0 / viscosity, heating.eddies)
         central, around, axial, fresh = _layer_flows(flow, shares, heating.capacity)
         made = heating.friction * layer_heat(heating, shares) * film
         less = made * thinning
         lost = np.maximum(-fresh, 0.0)
         lost[:, -1] += np.maximum(axial[:, -1], 0.0)
-        conducted = self.layers * heating.conductance * flow.shear
-        fields = around, axial, fresh, made + less * start, less, conducted
+        between, beside, shifted = flow.transfer or laminar_transfer(self.layers)
+        shift = shifted[0] * made[..., 1:] - shifted[1] * made[..., :-1]
+        warming = made + np.diff(shift, prepend=0.0, append=0.0)
+        conducts = (heating.conductance * flow.shear)[..., None]
+        at_walls = beside * np.concatenate([conducts, conducts, np.ones(conducts.shape)], axis=-1)
+        fields = around, axial, fresh, warming + less * start, less, conducts * between, at_walls
         oil, openings, bush, account = _solve(heating, central, fields)
         return HeatSolution(
             oil=oil.reshape(shape),
@@ -365,8 +376,7 @@ def _solve(
 ) -> tuple[Array, Array, Array, Array]:
     """Return temperatures of oil, openings and bush, and an account, from what rf_energy has of the cells."""
     opening, walls = np.ascontiguousarray(heating.opening, dtype=np.int32), heating.walls
-    transfer = heating.flow.transfer
-    given = central, *fields, *((None, None) if transfer is None else transfer), walls and walls.spread
+    given = central, *fields, walls and walls.spread
     kept = [None if of is None else contiguous(of) for of in given]
     *places, spread = (None if of is None else of.ctypes.data for of in kept)
     shape, openings = fields[0].shape, int(opening.max()) + 1 + (central is not None)
@@ -453,28 +463,30 @@ class LayerShares(NamedTuple):
     crossed: Array
 
 
-def layer_shares(fluidity: Array) -> LayerShares:
-    """Return the shares of layers of a fluidity 1/viscosity (N, M + 1, K) [any unit]."""
+def layer_shares(fluidity: Array, moments: Array | None = None) -> LayerShares:
+    """Return the shares of layers of a fluidity 1/viscosity (N, M + 1, K) [any unit].
+
+    In a turbulent film it varies within a layer as its `eddy_moments` (3, N, M + 1, K) have it.
+    """
     count = fluidity.shape[-1]
-    edges = np.linspace(0.0, 1.0, count + 1)
-    low, high, d = edges[:-1], edges[1:], 1.0 / count
-    middle = 0.5 * (low + high)
-    F0, F1 = (fluidity * d).sum(axis=-1), (fluidity * middle * d).sum(axis=-1)
-    y = (F1 / F0)[..., None]
-    by_pressure = fluidity * (high**3 - low**3 - 1.5 * y * (high**2 - low**2)) / 3.0
-    square = fluidity * ((high - y) ** 3 - (low - y) ** 3) / 3.0
-    F2 = by_pressure.sum(axis=-1)
-    below = _before(fluidity * d)
-    moment = _before(fluidity * (middle - y) * d)
-    inside = fluidity * ((high**3 - low**3) / 6.0 - 0.5 * low**2 * d - 0.5 * y * d**2)
+    half, middle = 0.5 / count, (np.arange(count) + 0.5) / count
+    own = laminar_moments(count) if moments is None else moments
+    whole, arm, square = (fluidity * moment for moment in own)
+    F0 = whole.sum(axis=-1)
+    y = ((arm + middle * whole).sum(axis=-1) / F0)[..., None]
+    lever = middle - y
+    turning = arm + lever * whole
+    squares = square + lever * (arm + turning)
+    F2 = squares.sum(axis=-1)
+    inside = half * turning - square - lever * arm
     return LayerShares(
         F0=F0,
         F2=F2,
-        dragged=d * (below + 0.5 * d * fluidity) / F0[..., None],
-        pressed=-(d * moment + inside),
-        sheared=d * fluidity / F0[..., None],
-        squeezed=square / F2[..., None],
-        crossed=d * fluidity * (middle - y) / F0[..., None],
+        dragged=(2.0 * half * _before(whole) + half * whole - arm) / F0[..., None],
+        pressed=-(2.0 * half * _before(turning) + inside),
+        sheared=whole / F0[..., None],
+        squeezed=squares / F2[..., None],
+        crossed=turning / F0[..., None],
     )
 
 

@@ -14,10 +14,11 @@ import numpy as np
 
 from ...core.model import Array
 from ...core.port import Tangent, has_wall
+from ..films.eddy_layers import Transfer, turbulent_transfer
 from ..films.finite_volumes import Grid, Spans, Stencil, solve_stencil
 from ..films.geometry import SunkArc
 from ..films.mass_conserving import Fluidity
-from ..films.turbulence import turbulent_factors, turbulent_transfer
+from ..films.turbulence import turbulent_factors
 from ..reaction import StaticReaction
 
 
@@ -46,9 +47,8 @@ class FilmFlow(NamedTuple):
         Flow from a groove all round at mid-length into the first cells; None without one.
     sheared : ndarray, shape (N, M + 1), or float [1]
         Factor of the shear stress, 1 in a laminar film.
-    transfer : ndarray, shape (2, N, M + 1), or None [1]
-        Nusselt number of the heat to both walls and factor of that from one to the other; None for laminar
-        6 and 1.
+    transfer : Transfer or None
+        Heat that is conducted across the film; None for that of a laminar one.
     """
 
     dragged: Array
@@ -63,7 +63,7 @@ class FilmFlow(NamedTuple):
     climb: Array
     central: Array | None = None
     sheared: Array | float = 1.0
-    transfer: Array | None = None
+    transfer: Transfer | None = None
 
     @property
     def around(self) -> Array:
@@ -506,6 +506,8 @@ class FrozenFilm(StaticReaction):
         Bearing of the viscosity that the fluidity is relative to.
     frozen_at : (float, float) or None [m]
         Position of the journal at which it was; None of fresh oil.
+    eddies : ndarray, shape (3, N, M + 1, layers), or None [1]
+        Moments of the fluidity across a turbulent film, as of `eddy_moments`.
     """
 
     cells: FilmCells
@@ -513,6 +515,7 @@ class FrozenFilm(StaticReaction):
     empty: np.ndarray
     bearing: Any
     frozen_at: tuple[float, float] | None = None
+    eddies: Array | None = None
 
     @property
     def clearance(self) -> float:
@@ -626,12 +629,12 @@ class FrozenFilm(StaticReaction):
         around, along = (turbulent_factors(self.bearing, speed, *place) for place in places)
         return (around[0][0], along[0][1]), (around[1][0], along[1][1])
 
-    def walls(self, speed: float, thickness: Array) -> tuple[Array | float, Array | None]:
+    def walls(self, speed: float, thickness: Array) -> tuple[Array | float, Transfer | None]:
         """Return `sheared` and `transfer` of a `FilmFlow` at the thickness of the cells."""
-        if self.bearing.turbulence is None:
+        if self.bearing.turbulence is None or self.eddies is None:
             return 1.0, None
-        place = speed, thickness, self.fluidity.sheared
-        return turbulent_factors(self.bearing, *place)[0][3], turbulent_transfer(self.bearing, *place)
+        place = self.bearing, speed, thickness, self.fluidity.sheared
+        return turbulent_factors(*place)[0][3], turbulent_transfer(*place, self.eddies.shape[-1])
 
     def _response(self, position: Array, velocity: Array, speed: float) -> Array:
         """Return the force and its derivatives by x, y, vx, vy and speed side by side, shape (2, 6)."""

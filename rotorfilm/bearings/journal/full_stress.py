@@ -16,7 +16,7 @@ import numpy as np
 from ...core.errors import InputError, require_count, require_number, require_pair
 from ...core.model import Array
 from ..films.mass_conserving import Fluidity
-from ..films.turbulence import KAPPA, SUBLAYER, Turbulence, blend, local_reynolds
+from ..films.turbulence import Turbulence, blend, eddy_viscosity, local_reynolds
 from .film_flow import FrozenFilm, film_cells
 from .reynolds_film import ReynoldsFilm
 
@@ -44,7 +44,7 @@ def eddy_flows(reynolds: Array, around: Array, along: Array) -> tuple[Array, Arr
     for _ in range(STRESS_ROUNDS):
         stress = np.hypot(drag + around * arm, side + along * arm)
         y = wall * np.sqrt(reynolds * stress)
-        flows = weights / (1.0 + KAPPA * (y - SUBLAYER * np.tanh(y / SUBLAYER)))
+        flows = weights / eddy_viscosity(y)
         whole, moment = flows.sum(axis=0), (flows * arm).sum(axis=0)
         drag, side = (1.0 - around * moment) / whole, -along * moment / whole
     onward = (1.0 - s) * flows

@@ -19,6 +19,7 @@ from ...core.errors import (
 from ...core.inputs import arguments, quantities
 from ...core.model import Array
 from ...core.readable import Drawable
+from ..films.eddy_layers import turbulent_moments, turbulent_transfer
 from ..films.finite_volumes import require_cells
 from ..films.mass_conserving import (
     FILM,
@@ -28,7 +29,7 @@ from ..films.mass_conserving import (
     conserved_cells,
 )
 from ..films.mass_conserving_steps import ScaledFilm
-from ..films.mobility import require_laminar, require_no_mobility
+from ..films.mobility import require_no_mobility
 from .bearing import StaticFilm
 from .energy_equation import (
     AdiabaticWalls,
@@ -79,11 +80,6 @@ class HeatRounds:
         require_no_mobility(self.bearing, type(self).__name__)
         require_kind("walls", self.walls, Walls, "walls such as BushRing(...) or AdiabaticWalls()")
         require_kind("profile", self.profile, FilmProfile, "a profile such as MeanTemperature()")
-        if self.bearing.turbulence is not None and self.profile.layers > 1:
-            raise InputError(
-                "profile must be MeanTemperature() in a turbulent film, which eddies mix across, "
-                f"got {self.profile!r}"
-            )
 
     def _shape(self) -> tuple[int, int]:
         """Return the number of lines, and of cells on each."""
@@ -189,6 +185,13 @@ class HeatRounds:
     def _viscosity(self, temperature: Array) -> Array:
         """Return the viscosity over that of the bearing."""
         return self.bearing.cooled[0].law.viscosity(temperature) / self.bearing.film_viscosity
+
+    def _eddies(self, speed: float, thickness: Array, viscosity: Array) -> Array | None:
+        """Return the moments of the fluidity across a turbulent film at a thickness over the clearance."""
+        if self.bearing.turbulence is None:
+            return None
+        in_layers = viscosity.reshape(*viscosity.shape[:2], self.profile.layers)
+        return turbulent_moments(self.bearing, speed, thickness, in_layers)
 
     def _state(
         self,
@@ -347,7 +350,7 @@ class HeatedFilm(HeatRounds):
     def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> Any:
         """Return the film of the viscosity at a temperature [K], as openings feed it at a position [m]."""
         q = np.asarray(position, dtype=float)
-        film = self._frozen(q, np.broadcast_to(temperature, self._fresh().shape))
+        film = self._frozen(q, np.broadcast_to(temperature, self._fresh().shape), speed)
         return fed_film(film, q, speed, full_gap=self.bearing.cooled[1].full_gap)[0].reaction
 
     def _shape(self) -> tuple[int, int]:
@@ -358,7 +361,7 @@ class HeatedFilm(HeatRounds):
     ) -> HeatedState:
         bearing: Any = self.bearing
         film, settled = (
-            self._frozen(position, temperature),
+            self._frozen(position, temperature, speed),
             before is not None and before.rounds >= FREE_ROUNDS,
         )
         if before is not None and settled:
@@ -369,7 +372,8 @@ class HeatedFilm(HeatRounds):
         cells = film.cells
         opening = np.broadcast_to(cells.opening[:, None], cells.shape)
         lines = cells.start, cells.extent
-        warm = self.profile.warm(self._heating(lines, opening, flow, speed, temperature, closing))
+        heating = self._heating(lines, opening, flow, speed, temperature, closing)
+        warm = self.profile.warm(heating._replace(eddies=film.eddies))
         return self._state(
             HeatedState,
             (position, speed, before, temperature, film.reaction),
@@ -392,13 +396,15 @@ class HeatedFilm(HeatRounds):
         sunk = bearing.geometry.recesses
         return film_cells(spans, grids[0], bearing.slenderness, eccentricity, centers, sunk)
 
-    def _frozen(self, position: Array, temperature: Array) -> FrozenFilm:
+    def _frozen(self, position: Array, temperature: Array, speed: float = 0.0) -> FrozenFilm:
         """Return the film of the viscosity that oil has at a temperature."""
-        x, y = position
-        cells = self._cells(position / self.bearing.clearance)
+        (x, y), eccentricity = position, position / self.bearing.clearance
+        cells, viscosity = self._cells(eccentricity), self._viscosity(temperature)
+        eddies = self._eddies(speed, cells.mean_thickness(eccentricity), viscosity)
         return FrozenFilm(
             cells=cells,
-            fluidity=self.profile.fluidity(self._viscosity(temperature)),
+            fluidity=self.profile.fluidity(viscosity, eddies),
+            eddies=eddies,
             empty=np.zeros((len(cells.theta), len(cells.conductance)), dtype=bool),
             bearing=self.bearing,
             frozen_at=(float(x), float(y)),
@@ -535,7 +541,6 @@ class HeatedJFOFilm(HeatRounds):
 
     def __post_init__(self) -> None:
         require_kind("film", self.film, JFOFilm, "a JFOFilm of a bearing with oil and cooling")
-        require_laminar(self.bearing, "HeatedJFOFilm")
         if self.film.mobility is not None:
             raise InputError(f"film must have mobility=None for HeatedJFOFilm, got {self.film.mobility!r}")
         self._require_heat()
@@ -547,11 +552,12 @@ class HeatedJFOFilm(HeatRounds):
 
     def cold(self) -> FrozenJFOFilm:
         """Return the film of fresh oil."""
-        return self._frozen(self._fresh())
+        return self._frozen(self._fresh(), np.zeros(2), 0.0)
 
     def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> FrozenJFOFilm:
-        """Return the film of the viscosity at a temperature [K], the same at all positions and speeds."""
-        return self._frozen(np.broadcast_to(temperature, self._fresh().shape))
+        """Return the film of the viscosity at a temperature [K], and its eddies at a place and a speed."""
+        at = np.broadcast_to(temperature, self._fresh().shape)
+        return self._frozen(at, np.asarray(position, dtype=float), speed)
 
     def _shape(self) -> tuple[int, int]:
         lines, along = conserved_cells(self.bearing.geometry, *self.film.cells).opening.shape
@@ -560,15 +566,16 @@ class HeatedJFOFilm(HeatRounds):
     def _round(
         self, position: Array, speed: float, temperature: Array, before: HeatedState | None, closing: bool
     ) -> HeatedJFOState:
-        bearing, frozen = self.bearing, self._frozen(temperature)
+        bearing, frozen = self.bearing, self._frozen(temperature, position, speed)
         film = frozen.film
         cells = film.cells
         state = film.solve(film.gap(position / bearing.clearance), 0.5 * speed)
         seen = jfo_state(frozen, state, position)
         (inflow, arriving), pumped = frozen.supplied(state)
-        flow = conserved_flow(film, state)
+        flow = frozen.moved(state)
         lines = np.roll(cells.face, 1), cells.extent
         heating = self._heating(lines, cells.opening, flow, speed, temperature, closing)
+        heating = heating._replace(eddies=frozen.eddies)
         given = self.film.supply_flow is not None
         warm = self.profile.warm(heating._replace(carry_over=None) if given else heating)
         return self._state(
@@ -585,16 +592,22 @@ class HeatedJFOFilm(HeatRounds):
             drawn_in=seen.drawn_in,
         )
 
-    def _frozen(self, temperature: Array) -> FrozenJFOFilm:
+    def _frozen(self, temperature: Array, position: Array, speed: float) -> FrozenJFOFilm:
         """Return the film of the viscosity that oil has at a temperature."""
-        given = self.film
+        given, viscosity = self.film, self._viscosity(temperature)
+        bearing: Any = given.bearing.at_temperature(self.supply_temperature)
+        eddies = None
+        if bearing.turbulence is not None:
+            gap = replace(given, bearing=bearing).scaled.film.gap(position / bearing.clearance)
+            eddies = self._eddies(speed, gap.line, viscosity)
         return FrozenJFOFilm(
-            bearing=given.bearing.at_temperature(self.supply_temperature),
+            bearing=bearing,
             cells=given.cells,
             supply_flow=given.supply_flow,
             cavitation_pressure=given.cavitation_pressure,
             submerged=given.submerged,
-            fluidity=self.profile.fluidity(self._viscosity(temperature)),
+            fluidity=self.profile.fluidity(viscosity, eddies),
+            eddies=eddies,
         )
 
 
@@ -632,7 +645,7 @@ def conserved_flow(film: ConservedFilm, state: ConservedState) -> FilmFlow:
         leaving=leaving,
         filled=np.where(opening, 0.0, np.clip(theta, 0.0, 1.0)),
         full=(full > 0) & ~opening,
-        shear=film.sheared_area(state),
+        shear=film.sheared_area(state, laminar=True),
         dissipation=12.0 * power,
         climb=in_cells(climbing, np.zeros((len(P), len(cells.width) - 1)), weight),
         central=from_groove,
@@ -652,9 +665,24 @@ class FrozenJFOFilm(JFOFilm):
     ----------
     fluidity : Fluidity
         Fluidity of the oil in each cell, over that of the bearing.
+    eddies : ndarray, shape (3, N, M, layers), or None [1]
+        Moments of the fluidity across a turbulent film, as of `eddy_moments`.
     """
 
     fluidity: Fluidity
+    eddies: Array | None = None
+
+    def moved(self, state: ConservedState) -> FilmFlow:
+        """Return where the oil of a steady film goes, and what conducts its heat."""
+        film = self.film
+        flow = conserved_flow(film, state)
+        if self.eddies is None:
+            return flow
+        with np.errstate(invalid="ignore"):
+            sheared = film.sheared_area(state) / flow.shear
+        place = self.bearing, 2.0 * state.rate, state.gap.line, self.fluidity.sheared
+        transfer = turbulent_transfer(*place, self.eddies.shape[-1])
+        return flow._replace(sheared=np.where(flow.shear > 0.0, sheared, 1.0), transfer=transfer)
 
     @cached_property
     def scaled(self) -> ScaledFilm:

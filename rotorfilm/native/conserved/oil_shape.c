@@ -86,16 +86,20 @@ typedef struct setting {
     double rate, growth;
     int by_rate;
     rf_through last[RF_FACTORS]; /* what was found for the last thicknesses, as many cells have the same */
-    double thickness[RF_FACTORS];
+    double thickness[RF_FACTORS], thick[RF_FACTORS];
 } setting;
 
-static rf_through through(setting *self, rf_factor way, double H)
+/* At a face after a line (q) or along it, whose numbers follow. */
+static rf_through through(setting *self, rf_factor way, size_t q, double H)
 {
-    if (H != self->thickness[way]) {
-        const rf_mobility *mobility = &self->shape->mobility;
+    const rf_oil_shape *shape = self->shape;
+    const size_t face = way == RF_ALONG ? shape->lines * shape->nodes + q : q;
+    const double thick = shape->thick ? shape->thick[face] : 1.0, growth = self->growth / thick;
+    if (H != self->thickness[way] || thick != self->thick[way]) {
+        const rf_mobility *mobility = &shape->mobility;
         self->thickness[way] = H;
-        self->last[way] = way == RF_OF_DRAG ? rf_dragged_beyond(mobility, self->growth, H)
-                                            : rf_pressed(mobility, way, self->growth, H);
+        self->thick[way] = thick;
+        self->last[way] = way == RF_OF_DRAG ? rf_dragged_beyond(mobility, growth, H) : rf_pressed(mobility, way, growth, H);
     }
     return self->last[way];
 }
@@ -124,20 +128,21 @@ static rf_through in_series(rf_through first, rf_through second, double share)
 static rf_through through_side(setting *self, size_t i, size_t of, size_t j)
 {
     const rf_oil_shape *shape = self->shape;
-    const size_t m = shape->nodes;
-    const double H = self->gap->side[i * (m + 1) + j];
+    const size_t m = shape->nodes, q = i * (m + 1) + j;
+    const double H = self->gap->side[q];
     if (!shape->depth)
-        return through(self, RF_ALONG, H);
+        return through(self, RF_ALONG, q, H);
     size_t near = j > 0 ? j - 1 : j, far = j < m ? j : j - 1;
     if (shape->opening[i * m + near] != RF_FILM_CELL)
         near = far;
     else if (shape->opening[i * m + far] != RF_FILM_CELL)
         far = near;
     const double first = depth_at(shape, of, near), second = depth_at(shape, of, far);
-    const rf_through land = through(self, RF_ALONG, H + first);
+    const rf_through land = through(self, RF_ALONG, q, H + first);
     if (first == second)
         return land;
-    return in_series(land, through(self, RF_ALONG, H + second), shape->width[far] / (shape->width[near] + shape->width[far]));
+    return in_series(land, through(self, RF_ALONG, q, H + second),
+                     shape->width[far] / (shape->width[near] + shape->width[far]));
 }
 
 /* The conductance of the face before cell j of a line. */
@@ -159,7 +164,7 @@ static double carried(setting *self, size_t q)
 {
     const double *dragged = self->shape->dragged, H = self->gap->face[q], share = dragged ? dragged[q] : 1.0;
     const double slope = self->slope ? self->slope->face[q] : 0.0;
-    const rf_through beyond = through(self, RF_OF_DRAG, H);
+    const rf_through beyond = through(self, RF_OF_DRAG, q, H);
     if (self->by_rate)
         return H * share + beyond.flow + self->rate * taken(self, beyond, 0.0);
     return self->rate * ((self->slope ? slope : H) * share + taken(self, beyond, slope));
@@ -176,7 +181,7 @@ static void set_equations(setting *self, double storing, rf_oil_cells *cells, do
     for (size_t q = 0, side = 0; q < all; ++q, ++side) {
         const size_t i = q / m, j = q % m;
         const double ease = shape->around ? shape->around[q] : 1.0;
-        const double pressed = taken(self, through(self, RF_AROUND, gap->face[q]), slope ? slope->face[q] : 0.0);
+        const double pressed = taken(self, through(self, RF_AROUND, q, gap->face[q]), slope ? slope->face[q] : 0.0);
         wedge[q] = carried(self, q) * shape->width[j];
         around[q] = pressed / shape->spacing[i] * ease * shape->width[j];
         store[q] = storing * (slope ? slope : gap)->line[q] * extent_of(shape, i) * shape->width[j];

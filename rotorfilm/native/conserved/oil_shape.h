@@ -26,6 +26,7 @@ typedef struct rf_oil_shape {
     int32_t whole;                        /* whether lines go along all of the length, both their ends being those of the film */
     const double *wall;  /* 3 x N: gap of the centered journal on land, at faces, before lines and behind them, or NULL: 1 */
     const double *depth; /* N x M: of the recess from a line to the next, or NULL: 0 */
+    const double *thick; /* N x M and N x (M + 1): viscosity at the faces after and along the lines, or NULL: 1 */
     rf_mobility mobility;
 } rf_oil_shape;
 

@@ -97,8 +97,9 @@ static void warm_oil(heat *h, size_t i, size_t j)
         h->x[own] = g->heat[p];
         for (int side = -1; side <= 1; side += 2)
             if (side < 0 ? k > 0 : k + 1 < K) {
-                rf_put(&h->matrix, own, own, g->conducted[c]);
-                rf_put(&h->matrix, own, h->of[side < 0 ? p - 1 : p + 1], -g->conducted[c]);
+                const double conducted = g->between[c * (K - 1) + (side < 0 ? k - 1 : k)];
+                rf_put(&h->matrix, own, own, conducted);
+                rf_put(&h->matrix, own, h->of[side < 0 ? p - 1 : p + 1], -conducted);
             }
     }
 }
@@ -119,22 +120,25 @@ static void mix_openings(heat *h, double *shares)
         rf_put(&h->matrix, own, own, h->arriving[own] > 0.0 ? h->arriving[own] : 1.0);
 }
 
-/* Take from a layer beside a wall what goes there: a sum of unknowns, the third one the layer beyond or the other wall. */
+/* Take from a layer beside a wall what goes there: a sum of unknowns, the third one the layer beyond or the other wall,
+   and a share of the heat that it makes. */
 static void cool_at_walls(heat *h, size_t i, size_t j)
 {
     const rf_energy *g = h->given;
     const size_t K = g->layers, c = i * g->cells + j, bush = h->bush + i;
-    const double Nu = g->nusselt ? g->nusselt[c] : 6.0, across = g->across ? g->across[c] : 1.0;
-    const double several[3] = {3.0, -8.0 / 3.0, -1.0 / 3.0}, one[3] = {Nu, -0.5 * Nu - across, across - 0.5 * Nu};
+    const double *beside = g->beside + 3 * c;
     for (int journal = 0; journal < 2 && is_film(g, i, j); ++journal) {
         const size_t at = journal ? (c + 1) * K - 1 : c * K, own = h->of[at];
+        const size_t wall = h->to_walls + (journal ? g->lines : i);
         const size_t beyond = K > 1 ? h->of[journal ? at - 1 : at + 1] : journal ? bush : h->shaft;
         const size_t of[3] = {own, journal ? h->shaft : bush, beyond};
+        const double flow[3] = {beside[0] - beside[2] * g->less[at], -beside[0] - beside[1], beside[1]};
         for (int n = 0; n < 3; ++n) {
-            const double flow = (K > 1 ? several : one)[n] * g->conducted[c];
-            rf_put(&h->matrix, own, of[n], flow);
-            rf_put(&h->matrix, h->to_walls + (journal ? g->lines : i), of[n], -flow);
+            rf_put(&h->matrix, own, of[n], flow[n]);
+            rf_put(&h->matrix, wall, of[n], -flow[n]);
         }
+        h->x[own] -= beside[2] * g->heat[at];
+        h->x[wall] += beside[2] * g->heat[at];
     }
 }
 

@@ -22,8 +22,10 @@ typedef struct rf_energy {
     const double *around, *axial; /* N x M x K: flow through the faces after a line and after a cell, the last the end */
     const double *fresh;          /* N x M x K: oil from outside, or lost to there if below 0 */
     const double *heat, *less;    /* N x M x K: heat that is made at no temperature, and by how much less per kelvin */
-    const double *conducted;      /* N x M: between two layers, per kelvin */
-    const double *nusselt, *across; /* N x M: of one layer to both walls and from one to the other, NULL: 6 and 1 */
+    const double *between; /* N x M x K - 1: conducted from a layer to the next one, per kelvin */
+    /* N x M x 3: into a wall per kelvin of the layer beside it above the wall, and per kelvin of what is beyond, the next
+       layer or of one layer the other wall; and the share of the heat made in the layer that goes there at once. */
+    const double *beside;
     /* Of the walls: bush T = mean + spread q, give (mean - ambient) = take sum q, q being the heat of a line;
        journal shaft_give (T - shaft_ambient) = shaft_take x its heat. */
     const double *spread; /* N x N */

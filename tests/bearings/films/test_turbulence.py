@@ -21,7 +21,7 @@ from rotorfilm.bearings import (
     Turbulence,
     full_stress_forces,
 )
-from rotorfilm.bearings.films import turbulence
+from rotorfilm.bearings.films import eddy_layers, turbulence
 from rotorfilm.bearings.films.mobility import mobility_of
 from rotorfilm.bearings.journal import ExtrapolatedFilm
 
@@ -50,9 +50,9 @@ def test_friction_is_that_of_the_measured_couette_flow():
 
 @pytest.mark.closed_form
 def test_heat_transfer_is_that_of_the_note_and_of_laminar_flow():
-    found = turbulence.heat_transfer(NUMBERS, 300.0)
+    found = eddy_layers.heat_transfer(NUMBERS, 300.0)
     assert_allclose(found, [(29.8, 49.3, 102.0, 183.0), (12.5, 21.5, 45.9, 83.0)], rtol=6e-3)
-    assert_allclose(turbulence.heat_transfer(np.array([1e-3]), 300.0)[:, 0], (6.0, 1.0), rtol=1e-3)
+    assert_allclose(eddy_layers.heat_transfer(np.array([1e-3]), 300.0)[:, 0], (6.0, 1.0), rtol=1e-3)
 
 
 def test_the_band_is_twice_differentiable_and_begins_at_taylors_number():
@@ -329,12 +329,3 @@ def test_derivatives_of_a_film_with_a_temperature_field_are_those_of_differences
         one, other = (film.force(each[:2], each[2:4], each[4]) for each in (more, less))
         atol = 2e-6 * np.abs(by[:, k]).max()
         assert_allclose(by[:, k], (one - other) / (2.0 * step), atol=atol, err_msg=f"column {k}")
-
-
-def test_a_film_across_which_eddies_mix_has_no_layers():
-    bearing = rf.JournalBearing(**SIZE, oil=OIL, cooling=COOLING, turbulence=Turbulence())
-    with pytest.raises(InputError, match="eddies mix"):
-        rf.HeatedFilm(bearing=bearing, profile=rf.bearings.LayeredTemperature(8))
-    fed = replace(bearing, grooves=(rf.Groove(center=1.0, width=0.3),))
-    with pytest.raises(InputError, match="turbulence=None for HeatedJFOFilm"):
-        rf.bearings.HeatedJFOFilm(film=rf.JFOFilm(bearing=fed))

@@ -9,7 +9,15 @@ from numpy.testing import assert_allclose
 
 import rotorfilm as rf
 from rotorfilm import Groove, InputError, JFOFilm
-from rotorfilm.bearings import FullFilm, Turbulence
+from rotorfilm.bearings import (
+    AdiabaticWalls,
+    BushRing,
+    FullFilm,
+    HeatedJFOFilm,
+    LayeredTemperature,
+    MeanTemperature,
+    Turbulence,
+)
 from rotorfilm.bearings.films.mobility import mobility_of
 from rotorfilm.bearings.journal import ReynoldsFilm
 from rotorfilm.bearings.oil.heated_bearing import film_heat
@@ -116,3 +124,61 @@ def test_the_heat_of_a_turbulent_film_balances():
     balance = film_heat(heat, warm.bearing.film_viscosity, cooling)
     carried = float(fluid.volumetric_heat(318.15)) * balance.flow * (found - 318.15)
     assert carried == pytest.approx(heat.power_loss, rel=1e-5)
+
+
+VG32, BUSH = rf.Oil.iso_vg(32), BushRing(outer_radius=0.5)
+WARM = {"viscosity": None, "cooling": rf.Cooling(supply_temperature=318.15)}
+PROFILES = [MeanTemperature(), LayeredTemperature(5)]
+
+
+def heated(profile, effect=EFFECT, oil=VG32, walls=BUSH):
+    """Return the film that conserves its oil with a temperature field, at one place of the journal."""
+    film = JFOFilm(bearing=replace(FED, **WARM, oil=oil, turbulence=effect), cells=(36, 4))
+    return HeatedJFOFilm(film=film, walls=walls, profile=profile).solve(HERE, SPEED)
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+def test_a_turbulent_temperature_field_has_the_power_of_its_torque(profile):
+    state = heated(profile)
+    laminar = heated(profile, None)
+    assert state.power_loss > 1.2 * laminar.power_loss
+    assert state.film.solve(HERE, SPEED).power_loss == pytest.approx(state.power_loss, rel=1e-10)
+    assert abs(state.heat.missing) < 1e-10 * state.heat.made
+    by = state.film.jacobian(HERE, REST, SPEED)
+    for k, step in ((0, 1e-9), (1, 1e-9), (4, 1e-4)):
+        more, less = (
+            state.film.force(HERE + sign * step * np.eye(5)[k, :2], REST, SPEED + sign * step * (k == 4))
+            for sign in (1.0, -1.0)
+        )
+        assert_allclose((more - less) / (2.0 * step), by[:, k], atol=1e-6 * np.abs(by[:, k]).max())
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("profile", PROFILES)
+def test_below_the_onset_a_temperature_field_is_the_laminar_one(profile):
+    slow, laminar = (heated(profile, effect) for effect in (Turbulence(density=1.0), None))
+    assert_allclose(slow.force, laminar.force, rtol=1e-10)
+    assert_allclose(slow.oil_temperature, laminar.oil_temperature, rtol=1e-10)
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("profile", PROFILES)
+def test_oil_of_one_viscosity_has_the_turbulent_film_that_conserves_it(profile):
+    oil = rf.Oil.constant(0.0163)
+    state = heated(profile, oil=oil)
+    film = JFOFilm(
+        bearing=replace(FED, **WARM, oil=oil, turbulence=EFFECT).at_temperature(318.15), cells=(36, 4)
+    )
+    known = film.solve(HERE, SPEED)
+    assert_allclose(state.force, known.force, rtol=1e-10)
+    assert state.power_loss == pytest.approx(known.power_loss, rel=1e-10)
+    assert state.side_flow == pytest.approx(known.side_flow, rel=1e-10)
+
+
+def test_eddies_cool_a_film_that_conserves_its_oil_between_even_walls():
+    """Laminar oil conducts an eighth: between walls of one temperature it would be hotter."""
+    even = BushRing(outer_radius=0.5, conductivity=1e6, transfer=0.0)
+    insulated = heated(MeanTemperature(), walls=AdiabaticWalls())
+    mean, across = (heated(profile, walls=even) for profile in PROFILES)
+    assert mean.maximum_temperature < insulated.maximum_temperature - 4.0
+    assert across.maximum_temperature == pytest.approx(mean.maximum_temperature, abs=2.0)
