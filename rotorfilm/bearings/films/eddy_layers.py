@@ -23,9 +23,9 @@ class Transfer(NamedTuple):
     between : ndarray, shape (..., layers - 1) [1]
         From a layer to the next one; the layers have equal shares of the gap.
     beside : ndarray, shape (..., 3) [1]
-        Into a wall: by the temperature of the layer beside it above that of the wall, by that of the next
-        layer, or of the other wall where there is one layer; and the share of the heat that is made in the
-        layer beside the wall and goes there at once.
+        Three numbers of the heat into a wall. The first two count temperatures above that of the wall: of the
+        layer beside it, and of the next layer. Where there is one layer, the second counts the other wall.
+        The third is the share of the heat made in the layer beside the wall that goes there at once.
     shifted : ndarray, shape (2, ..., layers - 1) [1]
         Shares of the heat that is made in the next layer and in the layer itself, whose difference flows from
         the next layer to it at the same temperature of both.
@@ -161,9 +161,9 @@ def eddy_moments(reynolds: Array, layers: int) -> Array:
 def eddy_transfer(reynolds: Array, prandtl: Array, layers: int) -> Transfer:
     """Return the conduction of turbulent Couette flow of two layers or more, at numbers (...).
 
-    With c the conductivity of eddies and molecules over the latter and q the flux that the heat of
-    dissipation leaves at a place, the means of two layers differ by the integral of q/c, each half of it by
-    the distance from the far side of its layer. That is exact for any number of layers.
+    Let c be the conductivity of eddies and molecules over the latter, and q the heat flux at a place. The
+    mean temperatures of two layers differ by the integral of q/c over both. Its weight rises from 0 at the
+    far side of a layer to 1 at their common side. This is exact for any number of layers.
     """
     film, half = _across(reynolds, layers), 0.5 / layers
     inverse = layers / _conducts(film.f, prandtl[..., None])
