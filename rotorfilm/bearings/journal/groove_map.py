@@ -340,9 +340,11 @@ class GrooveMap(MapPlan[GrooveMapTable]):
     Parameters
     ----------
     openings : AlignedOpenings
+        The openings, seen from their axis.
     slenderness : float [1]
         Length / diameter.
     resolution : Resolution
+        Grid of the solver and nodes of the map.
     """
 
     openings: AlignedOpenings

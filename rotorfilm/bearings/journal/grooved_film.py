@@ -6,12 +6,12 @@ import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ...core.errors import InputError, require_kind, require_number, require_positive
-from ...core.inputs import arguments, quantities
+from ...core.inputs import quantities
 from ...core.model import Array
 from ...core.progress import Report, silent
 from ...native import MapKernel
@@ -25,9 +25,6 @@ from ..films.mobility import Mobility, law_of, per_rate, require_same_mobility
 from .groove_map import GrooveMap, GrooveMapTable, Resolution, nearest
 from .map_film import MapFilm
 from .reynolds_film import ReynoldsFilm
-
-if TYPE_CHECKING:
-    from .bearing import JournalBearing
 
 SAME = 2e-9
 """Angle [rad], and relative difference of length/diameter, below which a table is that of a bearing."""
@@ -246,44 +243,3 @@ def require_same_openings(table: GrooveMapTable, openings: AlignedOpenings) -> N
     )
     if not same:
         raise InputError(f"openings must be those of the table, {table.grooves!r}, got {openings.grooves!r}")
-
-
-@arguments
-def build_groove_map(bearing: JournalBearing, report: Report = silent) -> GrooveMapTable:
-    """Return the map of a bearing with grooves or several pads; made and kept on disk if it is not there yet.
-
-    Parameters
-    ----------
-    bearing : JournalBearing
-        Bearing with grooves or several pads, and a `MapFilm()` or a `GroovedMapFilm`.
-    report : callable, optional
-        Called with the fraction done, 0 to 1, and a text while a map is being made.
-
-    Returns
-    -------
-    GrooveMapTable
-        The map. A `GroovedMapFilm(table=...)` needs neither the disk nor a compiler, for example in an FMU.
-
-    Raises
-    ------
-    InputError
-        If the bearing is plain or its film has no map.
-
-    Examples
-    --------
-    >>> from rotorfilm import Groove, GroovedMapFilm, JournalBearing, build_groove_map
-    >>> bearing = JournalBearing(
-    ...     radius=0.05, length=0.05, clearance=1e-4, viscosity=0.1,
-    ...     grooves=(Groove(center=0.0, width=0.35), Groove(center=3.1415926535, width=0.35)),
-    ...     film=GroovedMapFilm(cells=(32, 4), nodes=(6, 16, 12)),
-    ... )
-    >>> build_groove_map(bearing).slenderness
-    0.5
-    """
-    film = bearing.fitted_film
-    if not isinstance(film, GroovedMapFilm):
-        raise InputError(
-            "bearing must have openings, and a MapFilm() or GroovedMapFilm, for a map of its own, "
-            f"got {bearing!r}"
-        )
-    return film.built_table(bearing.slenderness, report)

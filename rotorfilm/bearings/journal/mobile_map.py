@@ -225,7 +225,15 @@ def _table_of(film: MobileMapFilm, slenderness: float) -> MobileMapTable:
 
 @dataclass(frozen=True)
 class MobileMap(MapPlan[MobileMapTable]):
-    """The map of a film for one length/diameter [1]."""
+    """The map of a turbulent film in plain bearings.
+
+    Parameters
+    ----------
+    film : MobileMapFilm
+        The film with its mobility.
+    slenderness : float [1]
+        Length / diameter.
+    """
 
     film: MobileMapFilm
     slenderness: float

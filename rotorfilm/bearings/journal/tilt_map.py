@@ -172,7 +172,15 @@ def second_order(film: RingKernel, chi: float, angle: float) -> Array:
 
 @dataclass(frozen=True)
 class TiltMap(MapPlan[TiltMapTable]):
-    """The map of tilts of a plain bearing of one length/diameter [1], from films on so many cells."""
+    """The map of tilts of plain bearings.
+
+    Parameters
+    ----------
+    slenderness : float [1]
+        Length / diameter.
+    cells : (int, int)
+        Cells of the films around and along half the length.
+    """
 
     slenderness: float
     cells: tuple[int, int] = CELLS

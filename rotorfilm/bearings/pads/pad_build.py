@@ -249,6 +249,7 @@ class PadMap(MapPlan[PadMapTable]):
     slenderness : float [1]
         Length / diameter.
     resolution : PadResolution
+        Grid of the solver and nodes of the map.
     """
 
     extent: float

@@ -117,8 +117,6 @@ class PadMapFilm:
             If an argument breaks its rule.
         """
         given = self._given(extent, slenderness)
-        if given is not None:
-            require_same_mobility(given.mobility, law_of(self.mobility))
         return given or self._plan(extent, slenderness).kept(report)
 
     def at_scale(self, reynolds_scale: float) -> PadMapFilm:
@@ -147,6 +145,9 @@ class PadMapFilm:
         shape = np.array([extent, slenderness])
         for table in self.tables:
             if np.all(np.abs(np.array([table.extent, table.slenderness]) / shape - 1.0) < SAME):
+                # The bearing of a turbulent film has its mobility.
+                if self.mobility is not None or not self.reynolds_cells:
+                    require_same_mobility(table.mobility, law_of(self.mobility))
                 return table
         return None
 
