@@ -128,6 +128,10 @@ class FilmQuestion:
         """Return what judges rests by an answer."""
         return self.judge
 
+    def judge_on(self, film: FilmCandidate) -> RestJudge:
+        """Return what judges rests by the answer of a film at one temperature."""
+        return self.judge
+
     def moved(self, film: FilmCandidate) -> Callable[[Any], float]:
         """Return a call that takes another bearing and returns how far its answer by T1 is off."""
         own = uniform_rest(film.reaction, self.load, self.speed)
@@ -464,6 +468,11 @@ class WhirlQuestion(FilmQuestion):
         """Return what judges rests at the threshold."""
         speed = float(solved.found.value)
         return self.growth(speed, solved.rung.slope(speed))
+
+    def judge_on(self, film: FilmCandidate) -> RestJudge:
+        """Return what judges rests at the threshold of a film at one temperature."""
+        rung = self.make(film, 0)
+        return self.judged(WarmSolution(BALANCED, rung.answer(None), rung))
 
     def moved(self, film: FilmCandidate) -> Callable[[Any], float]:
         """Return a call that takes another bearing and returns how far its threshold by T1 is off."""

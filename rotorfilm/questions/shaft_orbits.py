@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -295,6 +295,12 @@ RTOL, FINE_RTOL = 1e-6, 1e-8
 MODES = 18
 """Modes in each plane of what answers are judged by: three times those of the widest reduced model."""
 
+STATES = 12
+"""States of a run at which a richer grid is asked for its force."""
+
+SMALL_CHANGE = 0.05
+"""Relative change of all forces up to which the peak moves in proportion to it."""
+
 LEAST_CHANGE = 1e-4
 """Change of the viscosity, at least, by which the error of a map is told."""
 
@@ -334,32 +340,42 @@ class ShaftExcitation:
 
 
 def peak_rung(
-    model: ShaftModel, films: shaft_films.ShaftFilms, best: shaft_films.ShaftFilms, shaken: ShaftExcitation
+    model: ShaftModel,
+    films: shaft_films.ShaftFilms,
+    peak: Callable[[float], float],
+    best: shaft_films.ShaftFilms,
+    shaken: ShaftExcitation,
 ) -> FunctionRung:
     """Return the largest displacement [m] by one model of the shaft and one film for each journal.
 
     Its error is the distance to the run in elements half as long, on richer films, in finer steps. Of those
     elements the lowest modes are taken, three times as many as a reduced model has. The `best` films are
     those by which it is judged, unless they are these. A map with a verified bound is its own richer film: by
-    how much its bound may move the peak is told by a run in so much more viscous oil.
+    how much its bound may move the peak is told by a run in so much more viscous oil. Runs of turbulent
+    films on a richer grid would take a hundred times as long. These are judged by the force of that grid at a
+    few states of the run, and by what such a change of all forces does to the peak.
     """
     name = shaft_films.ShaftRung(model=model, films=films).name
     unit = WorkUnit(f"runs of {name}", ("runs", id(model), id(films)))
 
     def answer(before: RungResult | None) -> RungResult:
         made = films.prepare()
-        return RungResult(shaken.peak(shaken.run(model.rotor, films.reaction, RTOL)), {unit: 1, **made})
+        return RungResult(peak(0.0), {unit: 1, **made})
 
     def estimate(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
         method = f"run in {len(model.finer.elements)} elements"
         work = {WorkUnit(f"runs to check {name}"): 1}
+        turbulent = any(film.reaction.turbulence is not None for film in films.journals.values())
+        rich = best.reaction if best.bounded else films.reaction if turbulent else films.rich
         try:
-            rich = best.reaction if best.bounded else films.rich
-            fine = shaken.run(_lowest(model.finer), rich, FINE_RTOL)
+            fine = shaken.run(_lowest(model.finer), rich, RTOL if turbulent else FINE_RTOL)
         except ContactError:
             return ErrorEstimate(math.inf, method, work, doubt="a journal touches in the run that checks it")
         better = shaken.peak(fine)
         error = abs(better - found.value) / better
+        if turbulent:
+            more = _moved(peak, _richer_share(films, fine))
+            return ErrorEstimate(error + more, f"{method}, and with the force of {films.rich_name}", work)
         if not best.journals or not best.bounded:
             return ErrorEstimate(error, method, work)
         bound = _largest_bound(best, fine)
@@ -367,9 +383,8 @@ def peak_rung(
             doubt = "the journals go beyond where the map has a verified bound"
             return ErrorEstimate(math.inf, method, work, doubt=doubt)
         share = max(bound, LEAST_CHANGE)
-        thick = shaken.run(model.rotor, _thicker(films, 1.0 + share), RTOL)
-        moved = abs(shaken.peak(thick) - found.value) / found.value * bound / share
-        return ErrorEstimate(error + moved, f"{method}, and with the bound of the map", work)
+        more = abs(peak(share) - found.value) / found.value * bound / share
+        return ErrorEstimate(error + more, f"{method}, and with the bound of the map", work)
 
     return FunctionRung(name=name, answer=answer, estimate=estimate, expected=lambda _: {unit: 1})
 
@@ -381,6 +396,38 @@ def _largest_bound(films: shaft_films.ShaftFilms, run: Trajectory) -> float:
         amplitude_ratio = float(np.hypot(run[f"{name}_x"], run[f"{name}_y"]).max()) / film.reaction.clearance
         bounds.append(film.bound(amplitude_ratio, slopes=True))
     return max(bounds)
+
+
+def _peak_by(
+    model: ShaftModel, films: shaft_films.ShaftFilms, shaken: ShaftExcitation
+) -> Callable[[float], float]:
+    """Return the peak with the forces of all films larger by a share, each run once."""
+
+    @cache
+    def peak(share: float) -> float:
+        bearings = _thicker(films, 1.0 + share) if share else films.reaction
+        return shaken.peak(shaken.run(model.rotor, bearings, RTOL))
+
+    return peak
+
+
+def _moved(peak: Callable[[float], float], share: float) -> float:
+    """Return the relative change of a peak by such a change of all forces."""
+    run = share if abs(share) > SMALL_CHANGE else SMALL_CHANGE
+    return abs((peak(run) / peak(0.0) - 1.0) * share / run)
+
+
+def _richer_share(films: shaft_films.ShaftFilms, run: Trajectory) -> float:
+    """Return the largest change of force by richer films over its largest size, at a few states of a run."""
+    few = np.linspace(0, len(run.time) - 1, STATES).astype(int)
+    shares = []
+    for name, film in films.journals.items():
+        q, v = (
+            np.stack([run[f"{name}_{axis}"][few] for axis in axes]) for axes in (("x", "y"), ("vx", "vy"))
+        )
+        own, rich = (of.force(q, v, run["speed"][few]) for of in (film.reaction, film.rich))
+        shares.append(np.hypot(*(rich - own)).max() / np.hypot(*rich).max())
+    return float(max(shares))
 
 
 def _lowest(rotor: ShaftRotor) -> FlexibleRotor:
@@ -442,8 +489,9 @@ def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         for model in shaft_models(rotor)  # reduced, and meshes of the element of the file
         if model.modes or (model.modes is None and model.beam == rotor.beam)
     ]
+    parts = [(model, films, _peak_by(model, films, shaken)) for films in levels for model in models]
     ladder = Ladder(
-        rungs=tuple(peak_rung(model, films, levels[-1], shaken) for films in levels for model in models),
+        rungs=tuple(peak_rung(*part, levels[-1], shaken) for part in parts),
         unit="m",
         remarks=(
             *shaft_remarks(rotor, bearings, scene.lubricant.properties, fastest),
@@ -451,14 +499,8 @@ def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         ),
         within=shaft_physics(bearings),
     )
-
-    def moved(share: float) -> float:
-        films = levels[0].reaction, _thicker(levels[0], 1.0 + share)
-        own, other = (shaken.peak(shaken.run(models[0].rotor, one, RTOL)) for one in films)
-        return abs(other / own - 1.0)
-
     journals = {name: film.reaction for name, film in levels[0].journals.items()}
-    return turbulent_run(scene, journals, ladder, moved)
+    return turbulent_run(scene, journals, ladder, partial(_moved, parts[0][2]))
 
 
 def _massless(films: shaft_films.ShaftFilms) -> shaft_films.ShaftFilms:

@@ -65,7 +65,7 @@ def turbulent_oil(scene: Scene, question: Any, films: Sequence[FilmCandidate], l
     def closer() -> ErrorEstimate:
         richer = replace(effect, closure=QUADRATURE)
         about = step_to(question, films[0], place(), richer) if richer != effect else None
-        stress = by_stress(question, place())
+        stress = by_stress(question, films[0], place())
         return about._replace(error=about.error + stress) if about else ErrorEstimate(stress, "full stress")
 
     return _counted(ladder, cache(closer), "closure")
@@ -117,16 +117,15 @@ def step_to(question: Any, film: FilmCandidate, bearing: Any, richer: Turbulence
     return about
 
 
-def by_stress(question: Any, bearing: Any) -> float:
+def by_stress(question: Any, film: FilmCandidate, bearing: Any) -> float:
     """Return what the full stress changes in an answer: its force at the place found as another load."""
     if hasattr(bearing, "on_frozen"):
         return 0.0
-    own = rest_on(bearing, question.load, question.speed)
-    linear, full = full_stress_forces(bearing, own.at.position, question.speed)
-    x, y = (np.asarray(question.load) + full - linear).tolist()
-    return float(
-        question.distance(question.value(own), question.value(rest_on(bearing, (x, y), question.speed)))
-    )
+    judge = question.judge_on(replace(film, reaction=bearing, making=0.0))
+    own = rest_on(bearing, judge.load, judge.speed)
+    linear, full = full_stress_forces(bearing, own.at.position, judge.speed)
+    x, y = (np.asarray(judge.load) + full - linear).tolist()
+    return float(judge.apart(own, rest_on(bearing, (x, y), judge.speed)))
 
 
 def _said(ladder: Ladder, effects: Sequence[Turbulence], change: float | None) -> Ladder:
@@ -226,10 +225,10 @@ def turbulent_run(
         force = rich.force(at.position, np.zeros(2), speed)
         if stress:
             force = full_stress_forces(rich, at.position, speed)[1]
-        return float(np.linalg.norm(force) / np.linalg.norm(load) - 1.0)
+        return float(np.linalg.norm(force + load) / np.linalg.norm(load))
 
     def largest(effects: Mapping[str, Turbulence], *, stress: bool) -> float:
-        return moved(max((share(name, one, stress=stress) for name, one in effects.items()), key=abs))
+        return moved(max(share(name, one, stress=stress) for name, one in effects.items()))
 
     def step() -> ErrorEstimate:
         return ErrorEstimate(

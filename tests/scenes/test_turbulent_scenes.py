@@ -14,6 +14,7 @@ from rotorfilm.bearings.films import turbulence
 from rotorfilm.bearings.journal.full_stress import eddy_flows, full_stress_forces
 from rotorfilm.scenes.rotor_runs import after_loss, run_rotor
 from rotorfilm.scenes.scene import parse_scene
+from rotorfilm.scenes.turbulent import quick
 
 TURBINE = """
 schema = 1
@@ -278,15 +279,18 @@ def test_the_laminar_warning_of_a_film_is_given_once_in_an_answer():
     assert all(one.filename == __file__ for one in said)
 
 
-def test_a_run_on_laminar_films_above_the_onset_knows_what_turbulence_does_to_its_peak():
+def blade_loss(choice):
+    """Return the question about the peak of a shaft that loses a blade."""
     further = '[excitation]\nkind = "blade_loss"\nunbalance = 0.5\nnode = 1\nstart = 0.02\n'
     further += QUESTION.format(quantity="peak_displacement", tolerance=20)
     text = SHAFT.replace("unbalances = [{{ node = 1, unbalance = 0.1 }}]\n", "")
     text = text.replace('speed = "{speed} rpm"', 'speed = "{speed} rpm"\nduration = "0.1 s"')
-    own, laminar = (
-        parse_scene(text.format(size=SIZE, choice=one, speed=3000, warm="0.0156 Pa s") + further, "case.toml")
-        for one in ('"auto"', '"none"')
-    )
+    text = text.format(size=SIZE, choice=choice, speed=3000, warm="0.0156 Pa s")
+    return parse_scene(text + further, "case.toml")
+
+
+def test_a_run_on_laminar_films_above_the_onset_knows_what_turbulence_does_to_its_peak():
+    own, laminar = blade_loss('"auto"'), blade_loss('"none"')
     answer = quietly(laminar.ask)
     assert not answer.met
     assert "; turbulence, " in answer.rungs[0].method
@@ -296,3 +300,42 @@ def test_a_run_on_laminar_films_above_the_onset_knows_what_turbulence_does_to_it
     truth = abs(peaks[0] / peaks[1] - 1.0)
     assert truth > 0.01
     assert 0.5 * truth < answer.error_estimate < 2.0 * truth
+
+
+@pytest.mark.long
+def test_a_run_on_turbulent_films_is_judged_by_forces_of_a_richer_grid_and_closure():
+    answer = quietly(blade_loss('"ng_pan"').ask)
+    assert answer.met
+    assert "with the force of 2-D 384 x 16 extr.; closure, " in answer.rungs[0].method
+    rich = max(quietly(lambda: run_rotor(after_loss(blade_loss('"reichardt"')))).peaks.values())
+    truth = abs(rich / answer.value - 1.0)
+    assert truth / 3.0 < answer.error_estimate < 3.0 * truth
+
+
+def whirl(keys):
+    """Return the question about the threshold of a rigid rotor of 30.6 t."""
+    further = '[rigid_rotor]\nmass = "30600 kg"\n' + QUESTION.format(quantity="whirl_threshold", tolerance=10)
+    text = TURBINE.replace('load = "300 kN"\n', "").format(keys=MU + keys, speed=3000)
+    return parse_scene(text + further, "case.toml")
+
+
+def test_the_full_stress_moves_a_threshold_as_the_load_that_it_adds():
+    """It is no relative change of the growth at the speed of the scene, which is near zero at a threshold."""
+    asked = whirl("")
+    answer = quietly(asked.ask)
+    said = next(rung.method for rung in answer.rungs if "closure, " in rung.method)
+    bearing, load = quick(asked.journal_bearing), np.array(asked.static_load)
+    at = quietly(lambda: rf.whirl_threshold(bearing, load, 30600.0))
+    linear, full = full_stress_forces(bearing, at.equilibrium.position, at.speed)
+    moved = quietly(lambda: rf.whirl_threshold(bearing, load + full - linear, 30600.0)).speed
+    assert float(said.split("closure, ")[1]) == pytest.approx(abs(moved / at.speed - 1.0), rel=0.2)
+    assert answer.met
+
+
+@pytest.mark.long
+def test_the_threshold_of_a_turbulent_bearing_with_a_groove_within_its_length_is_answered():
+    groove = 'grooves = [{ center = "90 deg", width = "20 deg", length = 0.3 }]\nsupply_pressure = "1 bar"\n'
+    answer = quietly(whirl(groove).ask)
+    assert answer.met
+    assert answer.model.startswith("JFO")
+    assert answer.error_estimate < 0.03
