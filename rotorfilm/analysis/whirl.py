@@ -429,7 +429,7 @@ def critical_mass(coefficients: Coefficients) -> CriticalMass:
         raise InputError(
             f"coefficients must have no added mass, got {coefficients!r}: density 0 leaves it out"
         )
-    if isinstance(coefficients, FrequencyDependentCoefficients):
+    if isinstance(coefficients, FrequencyDependentCoefficients) and np.any(coefficients.damping):
         return _counted(coefficients)
     reason = _why_no_border(coefficients)
     if reason:

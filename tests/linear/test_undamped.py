@@ -16,10 +16,12 @@ from rotorfilm import (
     ShaftElement,
     ShaftRotor,
     Station,
+    coefficients,
     rotor_modes,
     rotor_threshold,
     whirl_threshold,
 )
+from rotorfilm.analysis import critical_mass
 
 pytestmark = pytest.mark.closed_form
 
@@ -87,6 +89,12 @@ def test_states_without_damping_do_not_grow(seen):
     bearings = {"left": oscillators(seen), "right": LinearBearing(stiffness=(1e6, 2e6))}
     assert rotor_threshold(rotor, bearings, [50.0, 900.0]).reason == "stable at every speed given"
     assert not rotor_modes(rotor, bearings, 300.0).grows.any()
+
+
+@pytest.mark.parametrize("frequency", [None, 300.0])
+def test_states_without_damping_have_no_critical_mass(frequency):
+    found = critical_mass(coefficients(oscillators(np.eye(2)), [0.0, 0.0], 300.0, frequency))
+    assert "no damping" in found.reason
 
 
 def test_each_mode_has_the_hysteresis_of_its_own_frequency():
