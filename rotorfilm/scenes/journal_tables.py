@@ -147,8 +147,8 @@ class ConservingTable:
         """Raise InputError if the film conserves its oil: it has no force in any motion, as that takes."""
         if self.conserves:
             raise InputError(
-                f"film must be a quasi-static film law for {what}, as it is without "
-                f"{' and '.join(self._supply_keys or ['film'])}, got a mass-conserving (JFO) film"
+                f"film must be a quasi-static film law (leave out {' and '.join(self._supply_keys or ['film'])}) "
+                f"for {what}, got a mass-conserving (JFO) film"
             )
 
     def conserved(self, bearing: Any, cells: tuple[int, int] | None = None) -> JFOFilm:
