@@ -146,9 +146,10 @@ class ConservingTable:
     def require_law(self, what: str) -> None:
         """Raise InputError if the film conserves its oil: it has no force in any motion, as that takes."""
         if self.conserves:
+            keys = " and ".join(self._supply_keys or ["film"])
             raise InputError(
-                f"film must be a quasi-static film law (leave out {' and '.join(self._supply_keys or ['film'])}) "
-                f"for {what}, got a mass-conserving (JFO) film"
+                f"film must be a quasi-static film law (leave out {keys}) for {what}, "
+                "got a mass-conserving (JFO) film"
             )
 
     def conserved(self, bearing: Any, cells: tuple[int, int] | None = None) -> JFOFilm:
