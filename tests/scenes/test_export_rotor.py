@@ -287,6 +287,21 @@ def test_unbalances_of_a_machine_are_parameters_of_its_fmu(tmp_path):
     assert abs(model.native().tables["unbalance"]).max() < 1e-12
 
 
+def test_a_machine_starts_at_rest_in_its_films_at_the_speed_that_its_importer_gives(tmp_path):
+    """With the speed as an input, and no unbalance in its plane."""
+    path = tmp_path / "driven.fmu"
+    there = rotor(unbalances=(Unbalance(node=2, unbalance=0.0),))
+    model = export_machine_fmu(there, FILMS, path, frequency=200.0, speed_input=True, stop_time=1e-5)
+    outputs = ["small_x", "left_y", "left_force_y", "speed"]
+    found = run_machine(path, outputs, {})
+    assert_allclose(found, np.broadcast_to(found[:, :1], found.shape), rtol=1e-6)
+    assert_allclose(found[3], SPEED)
+    assert {signal.name for signal in model.inputs} >= {"prescribed_speed", "prescribed_acceleration"}
+    assert "constant_speed" not in {one.name for one in model.native().parameters}
+    values = {"prescribed_speed": 1.2 * SPEED}
+    assert np.abs(run_machine(path, outputs, values)[1] - found[1]).max() > 1e-7
+
+
 def test_a_machine_in_springs_is_an_fmu_in_python_and_planes_are_beside_bearings(tmp_path):
     springs = dict.fromkeys(("left", "right"), LinearBearing(stiffness=1e7, damping=1e4))
     path = tmp_path / "machine.fmu"
