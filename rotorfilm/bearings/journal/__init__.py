@@ -17,6 +17,7 @@ if TYPE_CHECKING:
         has_losses,
         heat_numbers as heat_numbers,
     )
+    from .build_groove_map import build_groove_map as build_groove_map
     from .complementarity import ComplementarityArc as ComplementarityArc
     from .energy_equation import (
         AdiabaticWalls as AdiabaticWalls,
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from .film_state import FilmState, film_state as film_state, middle_pressure, tension
     from .full_stress import full_stress_forces
     from .groove_map import GrooveMapTable as GrooveMapTable
-    from .grooved_film import GroovedMapFilm as GroovedMapFilm, build_groove_map as build_groove_map
+    from .grooved_film import GroovedMapFilm as GroovedMapFilm
     from .heated_film import (
         HeatedFilm as HeatedFilm,
         HeatedJFOFilm as HeatedJFOFilm,
