@@ -651,7 +651,7 @@ def _in_order(rotor: Dynamic, bearings: Iterable[Any]) -> bool:
 
 def _bare(rotor: Dynamic) -> tuple[Any, bool]:
     """Return a rotor without its bearings, what excites it and its crack, and whether it has one."""
-    bare = rotor.bare if isinstance(rotor, MountedRotor) else rotor
+    bare: Any = rotor.bare if isinstance(rotor, MountedRotor) else rotor
     cracked = type(bare) is CrackedRotor
     return (bare.rotor if cracked or isinstance(bare, TimeExcitedRotor) else bare), cracked
 
