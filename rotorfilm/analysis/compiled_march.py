@@ -317,7 +317,7 @@ class ModalArrays(NamedTuple):
     values: Complex
     push: Complex
     sense: Complex
-    direct: Array | None
+    direct: Array | None = None
 
     @classmethod
     def of(cls, modal: ModalRotor) -> ModalArrays:

@@ -93,8 +93,9 @@ def _compiled(model: MountedRotor, time: Array) -> Array | None:
             return None
         except (ContactError, ConvergenceError) as ended:
             run = ended.partial
-    table = np.stack([run.time, *(run[name] for name in names(model.outputs))], axis=1)
-    return table if len(table) > 1 else None
+    if len(run.time) < 2 or not run.signals.keys() >= set(names(model.outputs)):
+        return None
+    return np.stack([run.time, *(run[name] for name in names(model.outputs))], axis=1)
 
 
 def _rows(model: Model | Stepped, time: Array, inputs: Array) -> tuple[list[Array], str]:

@@ -227,7 +227,7 @@ static inline int pad_film(const rf_map *map, const double *e, const double *w, 
     const double phi = 2.0 * atan(to.ny / (1.0 + to.nx));
     rf_weigh_between(&map->s, phi, order > 0 ? 2 : 1, by + 2);
     rf_evaluate(map->coefficients, 3, order, strides, by, &m);
-    double per = 0.0, by_rate[2];
+    double per = 0.0, by_rate[2] = {0.0, 0.0};
     if (map->growth.coefficients) {
         const rf_map_growth *growth = &map->growth;
         rf_weights rate;

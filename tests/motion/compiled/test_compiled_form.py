@@ -33,7 +33,7 @@ from rotorfilm import (
     with_springs,
 )
 from rotorfilm.analysis.compiled_rotor import compiled_form
-from rotorfilm.bearings import HalfSommerfeld, MapSqueeze
+from rotorfilm.bearings import FiniteSqueeze, FullFilm, HalfSommerfeld, MapSqueeze
 
 SIZES = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
 MAP = JournalBearing(**SIZES)
@@ -150,12 +150,17 @@ class OwnBearing(JournalBearing):
     """A bearing of a user."""
 
 
+DAMPER = PorousDamper(
+    radius=0.05, length=0.02, clearance=1e-4, viscosity=0.02, film=FiniteSqueeze(), extent=FullFilm()
+)
+
+
 @pytest.mark.parametrize(
     ("rotor", "bearing"),
     [
         (Heavier(mass=53.5, speed=157.0), MAP),
         (rigid(), OwnBearing(**SIZES)),
-        (rigid(), PorousDamper(radius=0.05, length=0.02, clearance=1e-4, viscosity=0.02)),
+        (rigid(), DAMPER),
         (mount(shaft(), {"left": OwnBearing(**SIZES)}), MAP),
         (mount(shaft(loss_factor=0.01), {"left": MAP}), MAP),
     ],

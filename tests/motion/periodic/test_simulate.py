@@ -190,7 +190,7 @@ def test_rest_stays_at_rest():
     assert run["left_force_y"] == pytest.approx(-at.loads["left"][1], rel=1e-6)
 
 
-@pytest.mark.filterwarnings("ignore:eccentricity ratio .* is beyond the map")
+@pytest.mark.filterwarnings("ignore:eccentricity ratio .* is beyond the map", "ignore:the least film")
 def test_a_journal_beyond_its_map_is_told_with_the_error_of_its_film():
     thrown = rigid(position=(0.9995e-4, 0.0), gravity=(0.0, 0.0))
     with pytest.warns(ValidityWarning, match=r"journal went beyond .* film at the wall, within 2 %$"):
