@@ -578,7 +578,13 @@ def _report_film(status: int, chi: float, kernel: FilmKernel) -> None:
         raise wall_contact(chi)
     if status == Status.UNDEFINED:
         raise vanishing_source(chi)
-    warn_user(f"eccentricity ratio {chi:.6g} is beyond the map of the film; its force is {continued(kernel)}")
+    where = f"eccentricity ratio {chi:.6g}{beside_speed(kernel)}"
+    warn_user(f"{where} is beyond the map of the film; its force is {continued(kernel)}")
+
+
+def beside_speed(kernel: FilmKernel) -> str:
+    """Return what tells of the axis of a map over the Reynolds number; empty where it has none."""
+    return " at this Reynolds number" if kernel.sped else ""
 
 
 def continued(kernel: FilmKernel) -> str:

@@ -17,7 +17,8 @@ from ...core.errors import InputError
 from ...core.model import Array
 from ...core.progress import Report, silent
 from ...core.sources import source_digest
-from .map_table import MapTable, StoredTable, cached_table, stretch, table_path, told, unstretch
+from ...native import FilmKernel
+from .map_table import ERRORS, MapTable, StoredTable, cached_table, stretch, table_path, told, unstretch
 
 _SLOPE_WEIGHTS = np.array([8 / 5, -4 / 5, 8 / 35, -1 / 35])
 """Weights of an even function at 1, 2, 3, 4 that give its value at 0, to eighth order."""
@@ -279,20 +280,31 @@ def batches(*states: Array) -> Iterator[tuple[Array, ...]]:
 
 
 def state_errors(
-    force: Array,
-    slopes: Array,
+    kernel: FilmKernel,
     exact: Array,
-    exact_slopes: Array,
+    e: Array,
+    w: Array,
+    rate: Array | None = None,
+    *,
     least: tuple[Array | float, Array | float] = (0.0, 0.0),
 ) -> tuple[Array, Array]:
-    """Return the errors of forces (2, n), and of K and C in (2, 4, n), the larger one, each (n,).
+    """Return the errors of the force of a film, and of K and C, the larger one, each (n,).
 
-    Relative to the force, and to the largest entry of the matrix; to `least` of them, (n,) and (2, n), where
-    they are below it.
+    They are relative to the force, and to the largest entry of the matrix; to `least` of them, (n,) and
+    (2, n), where they are below it. The first ten rows of `exact` (10, n) are the force and its derivatives.
     """
-    own = np.hypot(*(force - exact)) / np.maximum(np.hypot(*exact), least[0])
+    force, slopes = kernel.force(e, w, rate).values, kernel.jacobian(e, w, rate).values
+    exact_force, exact_slopes = exact[:2], exact[2:10].reshape(2, 4, -1)
+    own = np.hypot(*(force - exact_force)) / np.maximum(np.hypot(*exact_force), least[0])
     gaps, sizes = matrix_sizes(slopes - exact_slopes), matrix_sizes(exact_slopes)
     return own, (gaps / np.maximum(sizes, least[1])).max(axis=0)
+
+
+def band_bounds(reaches: Sequence[float], errors: Sequence[Array]) -> Array:
+    """Return the bounds of a `BoundedTable` from errors at as many states of each band, infinite without."""
+    worst = MARGIN * np.reshape(errors, (len(errors), len(reaches), -1)).max(axis=2)
+    unknown = np.full((ERRORS - 1 - len(errors), len(reaches)), math.inf)
+    return np.column_stack([reaches, *worst, *unknown])
 
 
 def matrix_sizes(slopes: Array) -> Array:

@@ -38,9 +38,9 @@ from ..films.geometry import STEPS, TURN, AlignedOpenings, Complementarity, Film
 from ..films.law import static_rate
 from ..films.map_fit import (
     LOSS_NODES,
-    MARGIN,
     MapPart,
     MapPlan,
+    band_bounds,
     batches,
     cubic_coefficients,
     even_shares,
@@ -429,12 +429,7 @@ class GrooveMap(MapPlan[GrooveMapTable]):
     def grown_bounds(self, table: GrooveMapTable, exact: Array, reynolds: Array) -> Array:
         """Return the bounds of a map that grows, of its force, K and C, at Reynolds numbers (n,)."""
         reaches, e, w = self.states
-        kernel = table.kernel(0.0)
-        found = kernel.force(e, w, reynolds).values, kernel.jacobian(e, w, reynolds).values
-        errors = state_errors(*found, exact[:2], exact[2:].reshape(2, 4, -1))
-        worst = [MARGIN * each.reshape(len(reaches), -1).max(axis=1) for each in errors]
-        unknown = np.full(len(reaches), math.inf)
-        return np.stack([reaches, *worst, unknown, unknown], axis=1)
+        return band_bounds(reaches, state_errors(table.kernel(0.0), exact, e, w, reynolds))
 
     def _losses(self) -> MapPart:
         film, count = self.film(loss_cells(self.resolution.cells)), self.resolution.nodes[1]
@@ -638,14 +633,8 @@ def groove_bounds(table: GrooveMapTable, states: tuple[list[float], Array, Array
         What `reference` and `bound_losses` return at all states.
     """
     reaches, e, w = states
-    kernel = table.kernel(0.0)
-    found = kernel.force(e, w).values, kernel.jacobian(e, w).values
-    errors = (
-        *state_errors(*found, exact[:2], exact[2:10].reshape(2, 4, -1)),
-        *loss_errors(table.loss_kernel(0.0), e, w, exact[10:]),
-    )
-    worst = (each.reshape(len(reaches), -1).max(axis=1) for each in errors)
-    return np.stack([reaches, *(MARGIN * each for each in worst)], axis=1)
+    of_force = state_errors(table.kernel(0.0), exact, e, w)
+    return band_bounds(reaches, [*of_force, *loss_errors(table.loss_kernel(0.0), e, w, exact[10:])])
 
 
 def _beside(grooves: tuple[Groove, ...], shares: Array) -> Array:

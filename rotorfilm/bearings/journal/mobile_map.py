@@ -27,9 +27,9 @@ from ..films.finite_volumes import are_counts, reference, require_cells
 from ..films.geometry import FilmGeometry
 from ..films.law import FilmLosses, KernelFilm
 from ..films.map_fit import (
-    MARGIN,
     MapPart,
     MapPlan,
+    band_bounds,
     batches,
     even_shares,
     fit_map_table,
@@ -282,13 +282,8 @@ class MobileMap(MapPlan[MobileMapTable]):
             log_center=quintic_coefficients(np.array([layer.log_center[0] for layer in layers])),
             coefficients=np.ascontiguousarray(over_y.swapaxes(0, 1)),
         )
-        reaches, *states = _states(film)
-        kernel = table.kernel(1.0)
-        own_answers = kernel.force(*states).values, kernel.jacobian(*states).values
-        errors = state_errors(*own_answers, exact[:2], exact[2:].reshape(2, 4, -1))
-        worst = [MARGIN * each.reshape(len(reaches), -1).max(axis=1) for each in errors]
-        unknown = np.full(len(reaches), math.inf)
-        bounds = np.stack([reaches, *worst, unknown, unknown], axis=1)
+        reaches, e, w, reynolds = _states(film)
+        bounds = band_bounds(reaches, state_errors(table.kernel(1.0), exact, e, w, reynolds))
         return dataclasses.replace(table, bounds=bounds)
 
 

@@ -437,8 +437,7 @@ def pad_errors(
     forces = np.hypot(*kernel.force(places, around, rates).values).reshape(-1, DIRECTIONS)
     matrices = matrix_sizes(kernel.jacobian(places, around, rates).values).reshape(2, -1, DIRECTIONS)
     least = FLOOR * forces.max(axis=1), FLOOR * matrices.max(axis=2)
-    found = kernel.force(e, states.w, reynolds).values, kernel.jacobian(e, states.w, reynolds).values
-    return state_errors(*found, exact[:2], exact[2:].reshape(2, 4, -1), least)
+    return state_errors(kernel, exact, e, states.w, reynolds, least=least)
 
 
 def loss_states(extent: float, count: int = LOSS_STATES) -> tuple[Array, Array]:

@@ -16,7 +16,7 @@ from ...core.progress import Report, silent
 from ...native import MapKernel
 from ...native.film_kernels import FilmKernel
 from ..films.finite_volumes import RingKernel, over_whole_length, require_cells
-from ..films.law import continued
+from ..films.law import beside_speed, continued
 from ..films.map_fit import MapPlan, nine_digits
 from ..films.map_growth import GrowthMap, require_map_law
 from ..films.mobility import (
@@ -117,7 +117,10 @@ class PadMapFilm:
             If an argument breaks its rule.
         """
         given = self._given(extent, slenderness)
-        return given or self._plan(extent, slenderness).kept(report)
+        if given is None:
+            return self._plan(extent, slenderness).kept(report)
+        require_same_mobility(given.mobility, law_of(self.mobility))
+        return given
 
     def at_scale(self, reynolds_scale: float) -> PadMapFilm:
         """Return this film in a bearing of this radius times clearance over viscosity [m3/kg s]."""
@@ -145,9 +148,6 @@ class PadMapFilm:
         shape = np.array([extent, slenderness])
         for table in self.tables:
             if np.all(np.abs(np.array([table.extent, table.slenderness]) / shape - 1.0) < SAME):
-                # The bearing of a turbulent film has its mobility.
-                if self.mobility is not None or not self.reynolds_cells:
-                    require_same_mobility(table.mobility, law_of(self.mobility))
                 return table
         return None
 
@@ -276,7 +276,8 @@ def with_pad_tables(bearing: Any) -> Any:
 def warn_beyond_map(least_films: Iterable[float], kernel: FilmKernel) -> None:
     """Warn that a pad is beyond the map of its film, with the least film on each pad [m]."""
     films = ", ".join(f"{film:.3g}" for film in least_films)
-    warn_user(f"least films of {films} m are beyond the map of a pad; its force is {continued(kernel)}")
+    where = f"least films of {films} m{beside_speed(kernel)}"
+    warn_user(f"{where} are beyond the map of a pad; its force is {continued(kernel)}")
 
 
 # The film on one pad from its map: made in seconds, kept on disk, the same for all pads of one shape.

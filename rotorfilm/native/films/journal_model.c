@@ -50,9 +50,9 @@ int rf_explain_journal(const rf_journal *journal, int status, const double *u, r
                             "of a film at the wall, within %g %%%s",
                             e / c, journal->error, journal->openings ? " where no opening is near" : "")
                    : rf_say(why, status,
-                            "eccentricity ratio %.6g is beyond the map of the film; its force is extrapolated "
-                            "there, with an error that is not known",
-                            e / c);
+                            "eccentricity ratio %.6g at a speed of %.6g rad/s is beyond the map of the film; its force "
+                            "is extrapolated there, with an error that is not known",
+                            e / c, u[4]);
     case RF_AT_WALL:
         return rf_say(why, status,
                       "the journal must stay inside the clearance %.9g m, got an eccentricity of %.9g m "

@@ -66,7 +66,7 @@ static int plain_beyond(const rf_map *map, const rf_frame *at, double *f, double
     const rf_exponent here = plain_end(map, end, at->cos, at->sin);
     const rf_share part = {map->share, 0.0, 0.0};
     const double turned[2] = {0.0, 0.0};
-    return rf_go_to_wall(map->slenderness, end, at, &here, &part, turned, f, jacobian);
+    return rf_go_to_wall(map->slenderness, end, at, &here, &part, turned, NULL, f, jacobian);
 }
 
 /* Without source: isotropic damping at the center, no derivative elsewhere. */

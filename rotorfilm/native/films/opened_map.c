@@ -105,21 +105,23 @@ static int beyond(const rf_map *map, const rf_frame *at, double rate, double *f,
     const double end = rf_unstretch(map->x.last);
     rf_frame edge = *at, straight = *at;
     rf_potential full;
-    double by_rate[3];
+    double here_by_rate[3] = {0.0, 0.0, 0.0}, by_rate[3] = {0.0, 0.0, 0.0};
     edge.chi = straight.chi = end;
     straight.nx = at->rx;
     straight.ny = at->ry;
     straight.cos = 1.0;
     straight.sin = 0.0;
-    const rf_exponent here = exponent(map, &edge, map->x.last, 0.0, 2, rate, by_rate);
+    const rf_exponent here = exponent(map, &edge, map->x.last, 0.0, 2, rate, here_by_rate);
     const rf_exponent towards = exponent(map, &straight, map->x.last, 0.0, 2, rate, by_rate);
     rf_at_wall(map->slenderness, end, 1.0, 0.0, &full);
     const double kept = -exp(towards.value) / full.value;
     const rf_share part = left(kept, kept * (end * towards.across + towards.turn), end, at->chi);
+    const double of_rate[3] = {here_by_rate[0], here_by_rate[1], left(kept, kept * by_rate[0], end, at->chi).side};
     const double value = -exp(here.value), turn = value * here.turn;
     const double turned[2] = {end * value * here.across + turn, end * (turn * here.across + value * here.turn_across)
                               + value * (here.turn * here.turn + here.turn_turn)};
-    return rf_go_to_wall(map->slenderness, end, at, &here, &part, turned, f, jacobian);
+    const double *growing = map->growth.coefficients ? of_rate : NULL;
+    return rf_go_to_wall(map->slenderness, end, at, &here, &part, turned, growing, f, jacobian);
 }
 
 int rf_groove_film(const void *of, const double *e, const double *w, double *f, double *jacobian)

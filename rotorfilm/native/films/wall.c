@@ -87,7 +87,7 @@ void rf_at_wall(double slenderness, double chi, double c, double s, rf_potential
 }
 
 int rf_go_to_wall(double slenderness, double chi_end, const rf_frame *at, const rf_exponent *from, const rf_share *share,
-                  const double *turned, double *f, double *jacobian)
+                  const double *turned, const double *by_rate, double *f, double *jacobian)
 {
     rf_potential gain, end;
     rf_at_wall(slenderness, at->chi, at->cos, -at->sin, &gain);
@@ -107,6 +107,12 @@ int rf_go_to_wall(double slenderness, double chi_end, const rf_frame *at, const 
                                 per * (turned[1] + share->side * gain.turn - by_ww)};
         rf_set_columns(at, at->rx, at->ry, by_e, 0, jacobian);
         rf_set_damping(at, value, turn, by_ww / value - turn * turn, jacobian);
+    }
+    if (jacobian && by_rate) {
+        const double along = 2.0 * at->size * (first * by_rate[0] + by_rate[2] * gain.value);
+        const double across = at->size * (first * (by_rate[0] * from->turn + by_rate[1]) + by_rate[2] * gain.turn);
+        jacobian[8] = along * at->nx - across * at->ny;
+        jacobian[9] = along * at->ny + across * at->nx;
     }
     return rf_judge(1.0, 0.0, f, jacobian);
 }

@@ -34,9 +34,10 @@ typedef struct rf_share {
 } rf_share;
 
 /* The film of a map beyond its last node chi_end, where it has L: E there, and a share of the gain. E there may depend on
-   the direction of e by itself: turned[2] are the derivatives of E and of its turn where e and w turn together. */
+   the direction of e by itself: turned[2] are the derivatives of E and of its turn where e and w turn together. It may also
+   depend on the rate: by_rate[3] are the derivatives of L, of its turn and of the share; NULL where none does. */
 int rf_go_to_wall(double slenderness, double chi_end, const rf_frame *at, const rf_exponent *end, const rf_share *share,
-                  const double *turned, double *f, double *jacobian);
+                  const double *turned, const double *by_rate, double *f, double *jacobian);
 
 /* Largest error of a force that was measured beyond a last node x_end of a map [%] (docs/map.md): 0 for last nodes
    nearer the center than any that was. */

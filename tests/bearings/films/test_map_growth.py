@@ -67,6 +67,16 @@ def test_derivatives_are_those_of_differences(bearings, kind):
         assert_allclose((differences[0] - differences[1]) / (2.0 * step), by[:, k], rtol=3e-6, atol=1e-3)
 
 
+@pytest.mark.filterwarnings("ignore:eccentricity ratio .* at this Reynolds number is beyond the map")
+@pytest.mark.parametrize("eccentricity", [0.8, 0.95])
+def test_beyond_a_map_the_force_has_its_derivative_by_the_speed(bearings, eccentricity):
+    own, _ = bearings["grooved"]
+    place = eccentricity * 5e-4 * np.array([0.6, -0.8])
+    more, less = (own.force(place, VELOCITY, -SPEED + step) for step in (0.01, -0.01))
+    found = own.jacobian(place, VELOCITY, -SPEED)[:, 4]
+    assert_allclose(found, (more - less) / 0.02, atol=1e-7 * np.abs(found).max())
+
+
 @pytest.mark.parametrize("kind", ["lobed", "grooved"])
 def test_damping_is_symmetric_and_tells_the_force_at_rest(bearings, kind):
     """F = C (speed/2) z x E for each film about its own center, exactly, at any Reynolds number."""
@@ -92,8 +102,10 @@ def test_a_map_knows_its_mobility_and_its_range(bearings):
     table = own.film.tables[0]
     assert type(table).from_bytes(table.to_bytes()) == table
     assert table.bound(0.3, slopes=False) < 0.05
-    with pytest.warns(ValidityWarning, match="beyond the map"):
+    with pytest.warns(ValidityWarning, match="m at this Reynolds number are beyond the map"):
         own.force(PLACE, VELOCITY, 3000.0)
+    with pytest.raises(InputError, match=r"mobility must be that of the table, .* got None"):
+        replace(own, turbulence=None).force(PLACE, VELOCITY, SPEED)
     other = replace(own, turbulence=replace(FREE, closure="hirs"))
     with pytest.raises(InputError, match="mobility must be that of the table"):
         other.force(PLACE, VELOCITY, SPEED)
