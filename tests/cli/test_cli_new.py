@@ -62,7 +62,7 @@ def test_a_damper_answers_with_its_orbits(run, tmp_path):
     assert {one.name for one in (tmp_path / "out").iterdir()} == {"answer.json", "transmissibility.png"}
     assert "jumps" in run("solve", path)[1]
     for change, message in (
-        ("rigid_rotor.unbalance=0", "unbalances must be positive"),
+        ("rigid_rotor.unbalance=0", "rigid_rotor.unbalance must be positive"),
         ('damper.offset=["10 um", 0]', "damper.offset must be 0 for orbits about the center"),
         (
             "damper.supply={ supply_pressure = 1e5, end_groove = true }",
