@@ -316,7 +316,8 @@ def short_squeeze_film(
     """Return a short film on a porous layer, by `native/films/squeeze_film.c`.
 
     A full film is exact, in closed form. A film that ruptures carries pressure on the half circle towards
-    which the rotor moves, within 1e-9. With feed it has a pressure where that is positive, within 1e-3.
+    which the rotor moves, within 1e-9. With feed it has a pressure where that is positive. The force is then
+    within 1e-3, and within 1e-2 where the pressures at the ends have opposite signs.
 
     Parameters
     ----------

@@ -20,9 +20,10 @@
    ends = clearance^2 / (3 viscosity length^2) (start_pressure to end_pressure, linear along the axis)
 
    Validity: For length / (2 radius) up to about 0.25. Fixed are length and clearance where the cage is porous, and what
-   does not feed this damper. The force of a fed film that ruptures is within 1e-3, of the others within 1e-9 of the
-   equations. The springs are preloaded so that they carry the static load. Laminar, isothermal, aligned, without oil
-   inertia. Where a rotor is at rest in a ruptured film without feed, the film force is zero and has no derivative. */
+   does not feed this damper. The force of a fed film that ruptures is within 1e-3 of the equations, within 1e-2 where
+   the pressures at its ends have opposite signs; that of the others is within 1e-9. The springs are preloaded so that
+   they carry the static load. Laminar, isothermal, aligned, without oil inertia.
+   Where a rotor is at rest in a ruptured film without feed, the film force is zero and has no derivative. */
 #include <math.h>
 #include <stdlib.h>
 
