@@ -40,7 +40,8 @@ def bearing_forces(parts: Parts, time: Array, states: Array, speed: Array) -> li
         force = one.system.C @ inner + one.system.D @ np.concatenate(moved[k])
         found[k] = force - one.mass @ accelerations[2 * k : 2 * k + 2]
         if one.reaction.states:
-            further = one.reaction.output(0.0, inner[:, 0], np.append(np.zeros(4), speed[0]))[2:]
+            still = np.append(np.zeros(4), parts.profile.speeds[0])
+            further = one.reaction.output(0.0, one.reaction.initial_state, still)[2:]
             found[k] = np.concatenate([found[k], np.outer(further, np.ones(len(time))), inner])
         first = last
     return found

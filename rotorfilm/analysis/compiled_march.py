@@ -233,9 +233,11 @@ def linear_states(parts: Parts, state: Array, grid: Array) -> Array | None:
     """Return the states at the times of a grid, shape (n, 2 N), of a rotor whose equations are linear.
 
     With A V = V Lambda, x(t) = x0 + Re(p exp(i w t)) + Re(V exp(Lambda t) c), x0 at rest, p the response to
-    the unbalance. None where speed or bearings change, or the modes do not say the motion to 1e-9.
+    the unbalance. None where speed or bearings change, a journal may touch, or the modes do not say the
+    motion to 1e-9.
     """
     steady = parts.excited is None and len(set(parts.profile.speeds)) == 1
+    steady = steady and not any(math.isfinite(bearing.clearance) for bearing in parts.bearings)
     if not steady or not all(is_constant(one) or parts.is_linear(one) for one in parts.bearings):
         return None
     speed, none = parts.speed, np.zeros(2)

@@ -143,6 +143,12 @@ class Parts(NamedTuple):
         return np.repeat([size if math.isfinite(size) else NOMINAL_LENGTH for size in sizes], self.points)
 
     @property
+    def mass(self) -> Array:
+        """Mass matrix of the rotor with the added masses of its linear bearings, shape (N, N)."""
+        added = sum(one.rows.T @ one.mass @ one.rows for one in self.linear)
+        return np.asarray(self.structure.mass + added)
+
+    @property
     def alone(self) -> Parts:
         """The rotor by itself, on which all bearings act by their forces."""
         return self._replace(linear=())
@@ -314,7 +320,8 @@ def take_apart(mounted: MountedRotor, *, over_time: bool = False) -> Parts:
         structure, profile, every, tuple(names), np.concatenate(rows), linear=linear, over_time=over_time
     )
     if isinstance(bare, TimeExcitedRotor):
-        return parts._replace(excited=bare.rows, moved=bare.columns)
+        moved: Array = np.linalg.solve(parts.mass, structure.mass @ bare.columns).astype(float)
+        return parts._replace(excited=bare.rows, moved=moved)
     return parts
 
 
@@ -356,8 +363,7 @@ def journal_rows(parts: Parts) -> Array:
 
 def equations(parts: Parts) -> Operators:
     """Return the equations of a rotor with its linear bearings; `push` is that on the journals."""
-    structure, n = parts.structure, len(parts.structure.weight)
-    mass = structure.mass + sum(one.rows.T @ one.mass @ one.rows for one in parts.linear)
+    structure, mass, n = parts.structure, parts.mass, len(parts.structure.weight)
     model = solved_equations(structure._replace(mass=mass))
     if len(parts.rows) == 2 * len(parts.names):
         push = model.push[
@@ -605,7 +611,7 @@ def compiled_form(rotor: Dynamic, reaction: Any) -> MountedRotor | None:
     if not is_linear(rotor, over_time=True) or not _is_compiled(reaction):
         return None
     mounted = mount(rotor, {"": reaction})
-    if not all(map(_is_compiled, mounted.all_bearings.values())) or not _in_order(rotor, [reaction]):
+    if not all(map(_is_compiled, mounted.all_bearings.values())):
         return None
     try:
         take_apart(mounted, over_time=True)
@@ -619,10 +625,8 @@ def takes_forces(rotor: Dynamic, bearings: Iterable[Any]) -> bool:
 
     It takes the linear rotors of `compiled_form`, on linear bearings, and others without states.
     """
-    own = tuple(bearings)
-    mounted = rotor.all_bearings.values() if isinstance(rotor, MountedRotor) else ()
-    every = (*own, *mounted)
-    if not is_linear(rotor, over_time=True) or not _in_order(rotor, own):
+    every = (*bearings, *(rotor.all_bearings.values() if isinstance(rotor, MountedRotor) else ()))
+    if not is_linear(rotor, over_time=True):
         return False
     bare, cracked = _bare(rotor)
     still = all(not film.states or linear_system(film, bare.profile.speeds) is not None for film in every)
@@ -637,16 +641,6 @@ def _is_compiled(bearing: Any) -> bool:
         return False
     fast = hasattr(bearing, "linear_system") or inertial(bearing) is not None
     return fast or compiled_force(bearing) is not None
-
-
-def _in_order(rotor: Dynamic, bearings: Iterable[Any]) -> bool:
-    """Return whether all bearings with states were mounted in one go, so that their order is known."""
-    levels = [any(bearing.states for bearing in bearings)]
-    level: Any = rotor
-    while isinstance(level, MountedRotor):
-        levels.append(any(bearing.states for bearing in level.bearings))
-        level = level.rotor
-    return sum(levels) <= 1
 
 
 def _bare(rotor: Dynamic) -> tuple[Any, bool]:

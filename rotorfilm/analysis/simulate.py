@@ -146,14 +146,14 @@ def simulate(
         try:
             return in_c(mounted, initial_state=initial_state)
         except ConvergenceError as failure:
-            if failure.partial is not None or not any(film.states for film in films.values()):
+            if failure.partial is not None:  # otherwise no modes were found, which scipy does not need
                 raise
     system = Coupled(rotor, films)
     for film in films.values():
         require_turning(film, rotor)
     state = _initial(system, system.initial_state if initial_state is None else initial_state)
     if not by_station and method is None:
-        compiled = _compiled(rotor, films[""], partial(in_c, initial_state=state))
+        compiled = _compiled(system, films[""], partial(in_c, initial_state=state))
         if compiled is not None:
             return compiled
     settings = Integration(method=method or Radau, rtol=rtol, max_step=max_step)
@@ -216,12 +216,12 @@ def time_response(
     return simulate(driven, bearings, duration=float(grid[-1]), times=grid, rtol=rtol)
 
 
-def _compiled(rotor: Dynamic, film: Any, in_c: Callable[[MountedRotor], Trajectory]) -> Trajectory | None:
+def _compiled(system: Coupled, film: Any, in_c: Callable[[MountedRotor], Trajectory]) -> Trajectory | None:
     """Return the compiled motion; None where it does not take rotor and film, or does not come to the end."""
-    mounted = compiled_form(rotor, film)
+    mounted = compiled_form(system.rotor, film)
     if mounted is None:
         return None
-    labels = [*names(rotor.outputs), *FORCE_OUTPUTS]
+    labels = names((*system.rotor.outputs, *system.film_signals()))
     try:
         return _shown(in_c(mounted), labels)
     except ContactError as contact:
@@ -261,7 +261,7 @@ def _trajectory(system: Coupled, kept: list[tuple[float, Array]]) -> Trajectory:
     time = np.array([t for t, _ in inside])
     outputs = np.array([system.sensed(t, state) for t, state in inside])
     outputs = outputs.reshape(len(inside), len(system.rotor.outputs)).T
-    states = np.array([state for _, state in inside]).reshape(len(inside), -1).T
+    states = np.array([state for _, state in inside]).reshape(len(inside), len(system.initial_state)).T
     film = system.film_outputs(time, outputs, states)
     known = (*system.rotor.outputs, *system.film_signals())
     signals = dict(zip(names(known), [*outputs, *film], strict=True))
@@ -503,8 +503,9 @@ class Coupled:
         if not any(inertial(station.reaction) for station in self.mounts):
             return {}
         pairs = zip(time, states.T, strict=True)
-        rows = np.reshape([self.mounted.output(t, x, self._free) for t, x in pairs], (len(time), -1)).T
-        return dict(zip(names(self.mounted.outputs), rows, strict=False))
+        outputs = names(self.mounted.outputs)
+        rows = [self.mounted.output(t, x, self._free) for t, x in pairs]
+        return dict(zip(outputs, np.reshape(rows, (len(time), len(outputs))).T, strict=True))
 
     def film_signals(self) -> list[Signal]:
         """Return the signals of `film_outputs`."""

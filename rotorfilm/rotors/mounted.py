@@ -216,9 +216,9 @@ class MountedRotor(AroundRotor):
 
     @property
     def all_bearings(self) -> dict[str, Reaction]:
-        """All bearings by station, also where the rotor was mounted in several steps."""
-        further = self.rotor.all_bearings if isinstance(self.rotor, MountedRotor) else {}
-        return {**self._own_bearings, **further}
+        """All bearings by station in the order of their states, also of a rotor mounted in several steps."""
+        before = self.rotor.all_bearings if isinstance(self.rotor, MountedRotor) else {}
+        return {**before, **self._own_bearings}
 
     @property
     def _own_bearings(self) -> dict[str, Reaction]:

@@ -8,9 +8,10 @@ import pytest
 from scipy.integrate import Radau
 
 import rotorfilm as rf
-from rotorfilm.analysis import simulate
+from rotorfilm.analysis import simulate, simulate_rotor
 from rotorfilm.bearings import MapSqueeze
-from rotorfilm.rotors import CrackedRotor, GaschHinge, JeffcottCrack
+from rotorfilm.core.errors import ContactError
+from rotorfilm.rotors import BaseExcitedRotor, BaseMotion, CrackedRotor, GaschHinge, JeffcottCrack, mount
 
 CLEARANCE, TIME = 1e-4, 0.005
 FILM = rf.JournalBearing(radius=0.05, length=0.03, clearance=CLEARANCE, viscosity=0.05)
@@ -49,6 +50,12 @@ def cracked(speed: Any = 200.0) -> CrackedRotor:
     return CrackedRotor(rotor=rotor, crack=JeffcottCrack(reduction=0.3), breathing=GaschHinge(edge=0.8))
 
 
+def shaken() -> BaseExcitedRotor:
+    """Return the rigid shaft on ground that shakes."""
+    base = BaseMotion(times=(0.0, 0.5 * TIME, TIME), acceleration_x=(0.0, 40.0, 0.0))
+    return BaseExcitedRotor(rotor=rigid(), base=base)
+
+
 RUNS: dict[str, Callable[[], tuple[Any, Any]]] = {
     "stiffness over frequency": lambda: (rigid(RISE), {"left": SEAL, "right": FILM}),
     "with a mass": lambda: (rigid(), {"left": HEAVY, "right": FILM}),
@@ -58,6 +65,8 @@ RUNS: dict[str, Callable[[], tuple[Any, Any]]] = {
     "damper, run-up": lambda: (rigid(RISE), {"left": SPRUNG, "right": FILM}),
     "seal in a run-up": lambda: (rigid(RISE), {"left": FILM, "right": ANNULAR}),
     "damper alone": lambda: (rf.RigidRotor(mass=20.0, speed=200.0, unbalance=1e-3), SPRUNG),
+    "mass alone": lambda: (rf.RigidRotor(mass=20.0, speed=200.0, unbalance=1e-3), HEAVY),
+    "mass on shaking ground": lambda: (shaken(), {"left": HEAVY, "right": FILM}),
     "crack": lambda: (cracked(), FILM),
     "crack, run-up": lambda: (cracked(RISE), FILM),
 }
@@ -76,3 +85,30 @@ def test_compiled_run_is_that_of_scipy(name: str) -> None:
         part = 1e-4 if "force" in key else 3e-6
         assert run[key] == pytest.approx(row, abs=part * max(np.abs(row).max(), 1e-9)), key
     assert run.units == wanted.units
+
+
+def test_states_of_bearings_are_in_order_in_several_levels() -> None:
+    start = 1e-5 * np.arange(1.0, 13.0)
+    first, last = mount(rigid(), {"right": SEAL}), {"left": HEAVY}
+    run = simulate_rotor(mount(first, last), duration=TIME, samples=3, initial_state=start)
+    swapped = np.concatenate([start[:8], start[10:], start[8:10]])
+    bearings = {"left": HEAVY, "right": SEAL}
+    wanted = simulate(rigid(), bearings, duration=TIME, samples=3, initial_state=swapped, method=Radau)
+    assert run["left_y"] == pytest.approx(wanted["left_y"], rel=1e-5)
+
+
+def test_a_seal_beside_springs_has_a_wall() -> None:
+    fast = [0.0] * 6 + [0.6, 0.0]
+    bearings = {"left": rf.LinearBearing(stiffness=5e4, damping=100.0), "right": ANNULAR}
+    with pytest.raises(ContactError, match=r"at t = 0\.000391"):
+        simulate(rigid(), bearings, duration=0.02, initial_state=fast)
+
+
+@pytest.mark.parametrize("method", [None, Radau])
+def test_a_run_without_samples_has_the_signals_of_any_other(method: Any) -> None:
+    bearings = {"left": HEAVY, "right": FILM}
+    none, some = (
+        simulate(rigid(), bearings, duration=1e-4, times=times, method=method) for times in ([], [1e-4])
+    )
+    assert list(none.signals) == list(some.signals)
+    assert not none.time.size
