@@ -398,9 +398,8 @@ class PortRotor:
             raise ConvergenceError(
                 f"modes of rotor and bearings must be distinct, got a condition of {condition:.3g}"
             )
-        arrays = ModalArrays(
-            *map(np.ascontiguousarray, (values, inverse @ small.push + 0j, felt @ shapes)), None
-        )
+        push, sense = (np.ascontiguousarray(one) for one in (inverse @ small.push + 0j, felt @ shapes))
+        arrays = ModalArrays(np.ascontiguousarray(values), push, sense)
         return carried_over(arrays, shapes, inverse, local - mean, step)
 
     def _square(self, slopes: Array) -> Array:
