@@ -148,6 +148,9 @@ class PadMapFilm:
         shape = np.array([extent, slenderness])
         for table in self.tables:
             if np.all(np.abs(np.array([table.extent, table.slenderness]) / shape - 1.0) < SAME):
+                # The bearing of a turbulent film has its mobility.
+                if self.mobility is not None or not self.reynolds_cells:
+                    require_same_mobility(table.mobility, law_of(self.mobility))
                 return table
         return None
 

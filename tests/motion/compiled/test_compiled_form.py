@@ -150,7 +150,7 @@ class OwnBearing(JournalBearing):
     """A bearing of a user."""
 
 
-DAMPER = PorousDamper(
+WITHOUT_KERNEL = PorousDamper(
     radius=0.05, length=0.02, clearance=1e-4, viscosity=0.02, film=FiniteSqueeze(), extent=FullFilm()
 )
 
@@ -160,7 +160,7 @@ DAMPER = PorousDamper(
     [
         (Heavier(mass=53.5, speed=157.0), MAP),
         (rigid(), OwnBearing(**SIZES)),
-        (rigid(), DAMPER),
+        (rigid(), WITHOUT_KERNEL),
         (mount(shaft(), {"left": OwnBearing(**SIZES)}), MAP),
         (mount(shaft(loss_factor=0.01), {"left": MAP}), MAP),
     ],
