@@ -259,7 +259,7 @@ def _trajectory(system: Coupled, kept: list[tuple[float, Array]]) -> Trajectory:
     """Return the signals at the kept samples, without one that lies beyond the wall."""
     inside = [(t, state) for t, state in kept if system.closest(t, state)[0] > 0.0]
     time = np.array([t for t, _ in inside])
-    outputs = np.array([system.sensed(t, state) for t, state in inside])
+    outputs = np.array([system.shown(t, state) for t, state in inside])
     outputs = outputs.reshape(len(inside), len(system.rotor.outputs)).T
     states = np.array([state for _, state in inside]).reshape(len(inside), len(system.initial_state)).T
     film = system.film_outputs(time, outputs, states)
@@ -445,6 +445,12 @@ class Coupled:
     def sensed(self, t: float, x: Array) -> Array:
         """Return the outputs of the rotor at a state."""
         return self.rotor.output(t, x[: self._split], self._no_input)
+
+    def shown(self, t: float, x: Array) -> Array:
+        """Return the outputs of the rotor under all forces, which those of bearings with mass in it feel."""
+        if not any(map(inertial, getattr(self.rotor, "all_bearings", {}).values())):
+            return self.sensed(t, x)
+        return self.mounted.output(t, x, self._free)[: len(self.rotor.outputs)]
 
     def closest(self, t: float, x: Array) -> tuple[float, Mount]:
         """Return the least film of all journals, relative to its clearance [1], and the journal."""

@@ -41,7 +41,15 @@ from .pad_bearing import (
     losses_of_pads,
 )
 from .pad_build import DIRECTIONS, FLOOR
-from .pad_film import PadFilm, PadGridFilm, PadMapFilm, fitted_pad_film, warn_beyond_map, with_pad_tables
+from .pad_film import (
+    PadFilm,
+    PadGridFilm,
+    PadMapFilm,
+    fitted_pad_film,
+    least_films,
+    warn_beyond_map,
+    with_pad_tables,
+)
 from .pad_table import LossyPadFilm
 
 # A fixed pad with a center of curvature of its own, and the usual sets of them by name.
@@ -208,7 +216,7 @@ class BoundLobes(BoundKernel):
     def report(self, status: int, x: float, y: float, vx: float, vy: float, speed: float) -> None:
         """Raise, or warn, about a state that has this status."""
         if status == Status.OUTSIDE:
-            warn_beyond_map(self.films(np.array([x, y])), self.kernel.film)
+            warn_beyond_map(least_films(self.films(np.array([x, y]))), self.kernel.film)
         else:
             super().report(status, x, y, vx, vy, speed)
 

@@ -276,11 +276,14 @@ def with_pad_tables(bearing: Any) -> Any:
     return replace(bearing, film=replace(film, tables=tables))
 
 
-def warn_beyond_map(least_films: Iterable[float], kernel: FilmKernel) -> None:
-    """Warn that a pad is beyond the map of its film, with the least film on each pad [m]."""
-    films = ", ".join(f"{film:.3g}" for film in least_films)
-    where = f"least films of {films} m{beside_speed(kernel)}"
-    warn_user(f"{where} are beyond the map of a pad; its force is {continued(kernel)}")
+def least_films(films: Iterable[float]) -> str:
+    """Return the words for the least film on each pad [m]."""
+    return f"least films of {', '.join(f'{film:.3g}' for film in films)} m"
+
+
+def warn_beyond_map(where: str, kernel: FilmKernel) -> None:
+    """Warn that films, named by words in the plural, are beyond the map of a pad."""
+    warn_user(f"{where}{beside_speed(kernel)} are beyond the map of a pad; its force is {continued(kernel)}")
 
 
 # The film on one pad from its map: made in seconds, kept on disk, the same for all pads of one shape.

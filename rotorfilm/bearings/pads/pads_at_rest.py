@@ -32,7 +32,7 @@ from ...native import Status
 from ...native.pad_kernels import RestPoint
 from ..reaction import broadcast_state
 from .pad_bearing import WEDGE, PadUnderJournal, losses_of_pads
-from .pad_film import PadGridFilm, warn_beyond_map
+from .pad_film import PadGridFilm, least_films, warn_beyond_map
 from .pad_matrices import PadMatrices
 from .pad_table import LossyPadFilm, least_film
 
@@ -95,10 +95,7 @@ def report_pads(bearing: Any, status: int, pad: int, position: Array) -> None:
     """Raise what the status of a pad, counted from 0, says of a journal at a position (2,) [m]."""
     if status <= Status.OUTSIDE:
         return
-    where = (
-        f"pad {pad + 1} (pivot at {math.degrees(bearing.pivots[pad]) % 360.0:g} deg), "
-        f"got a journal at {position.tolist()} m"
-    )
+    where = f"{_pad_name(bearing, pad)}, got a journal at {position.tolist()} m"
     if status == Status.AT_WALL:
         raise FilmContactError(f"journal and pads must have a film everywhere, and touch at {where}")
     if status == Status.UNDEFINED:
@@ -108,6 +105,16 @@ def report_pads(bearing: Any, status: int, pad: int, position: Array) -> None:
     if status == Status.STUCK:
         raise ConvergenceError(f"the tilt must be found, and was not, of {where}")
     raise InputError(f"states and inputs must be finite and not overflow, at {where}")
+
+
+def warn_of_pads(bearing: Any, status: int, pad: int) -> None:
+    """Warn where a status says that the film of a pad, counted from 0, is beyond its map."""
+    if status == Status.OUTSIDE:
+        warn_beyond_map(f"states of {_pad_name(bearing, pad)}", bearing.kernel.film)
+
+
+def _pad_name(bearing: Any, pad: int) -> str:
+    return f"pad {pad + 1} (pivot at {math.degrees(bearing.pivots[pad]) % 360.0:g} deg)"
 
 
 # Tilting pads that are held: the force on a journal and its derivatives at given tilts.
@@ -186,6 +193,7 @@ def held_force(bearing: Any, u: Array, tilts: Array, rates: Array | None = None)
     batch = bearing.kernel.forces(u, held, np.zeros_like(held) if rates is None else rates)
     state, pad = divmod(batch.first, len(bearing.pivots))
     report_pads(bearing, batch.status, pad, u[:2, state])
+    warn_of_pads(bearing, batch.status, pad)
     return batch.values
 
 
@@ -314,7 +322,7 @@ class StaticTiltingPads:
                 UnloadedPadWarning,
             )
         if point.status == Status.OUTSIDE:
-            warn_beyond_map(point.pads["least"], self.bearing.kernel.film)
+            warn_beyond_map(least_films(point.pads["least"]), self.bearing.kernel.film)
         return point.force
 
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:

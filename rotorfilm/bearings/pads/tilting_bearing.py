@@ -40,6 +40,7 @@ from .pads_at_rest import (
     held_jacobian,
     relative_travel_limit,
     report_pads,
+    warn_of_pads,
 )
 
 
@@ -395,4 +396,5 @@ class TiltingPadBearing(Called, PadBearing):
             raise InputError(f"x must have shape ({self.kernel.states},), got shape {state.shape}")
         point = self.kernel.at(values, state, slopes=slopes)
         report_pads(self, point.status, point.pad, values[:2])
+        warn_of_pads(self, point.status, point.pad)
         return point

@@ -20,7 +20,7 @@ FREE = Turbulence(closure="ng_pan", band=False, density=855.0)
 LOBES = rf.lobe_set("elliptical", preload=0.3, extent=1.4)
 PADS = {"pivots": rf.even_pivots(4), "extent": 1.4, "preload": 0.5, "pad_clearance": 5e-4}
 GROOVES = (rf.Groove(center=0.4, width=0.3),)
-SMALL = PadResolution(cells=(32, 4), nodes=(9, 8, 32), xi_range=(-0.5, 0.7), reach=0.8)
+SMALL = PadResolution(cells=(32, 4), nodes=(9, 8, 32), xi_range=(-0.5, 0.75), reach=0.85)
 FILM = PadMapFilm(resolution=SMALL, reynolds_cells=6)
 GROOVED = GroovedMapFilm(cells=(64, 8), nodes=(6, 24, 20), largest_eccentricity_ratio=0.7, reynolds_cells=6)
 PLACE, VELOCITY, SPEED = np.array([0.6e-4, -1.1e-4]), np.array([0.01, 0.02]), 250.0
@@ -106,6 +106,11 @@ def test_a_map_knows_its_mobility_and_its_range(bearings):
         own.force(PLACE, VELOCITY, 3000.0)
     with pytest.raises(InputError, match=r"mobility must be that of the table, .* got None"):
         replace(own, turbulence=None).force(PLACE, VELOCITY, SPEED)
+    tilting, _ = bearings["tilting"]
+    with pytest.warns(ValidityWarning, match=r"pad 1 .* at this Reynolds number are beyond the map"):
+        tilting.force(PLACE, np.zeros(2), 3000.0)
+    with pytest.warns(ValidityWarning, match=r"pad 1 .* at this Reynolds number are beyond the map"):
+        tilting.derivative(0.0, tilting.initial_state, [*PLACE, 0.0, 0.0, 3000.0])
     other = replace(own, turbulence=replace(FREE, closure="hirs"))
     with pytest.raises(InputError, match="mobility must be that of the table"):
         other.force(PLACE, VELOCITY, SPEED)

@@ -104,6 +104,23 @@ def test_a_seal_beside_springs_has_a_wall() -> None:
         simulate(rigid(), bearings, duration=0.02, initial_state=fast)
 
 
+LARGE = rf.AnnularSeal(
+    radius=0.2, length=0.1, clearance=3e-4, pressure_drop=2e6, viscosity=1e-3, density=1000.0
+)
+
+
+@pytest.mark.parametrize("inner", ["left", "right"])
+def test_forces_in_two_levels_are_those_of_all_bearings_at_once(inner: str) -> None:
+    bearings = {"left": rf.LinearBearing(stiffness=5e6, damping=2e3), "right": LARGE}
+    outer = {station: each for station, each in bearings.items() if station != inner}
+    run, wanted = (
+        simulate(rotor, films, duration=TIME, times=[0.5 * TIME, TIME], method=Radau)
+        for rotor, films in ((mount(rigid(), {inner: bearings[inner]}), outer), (rigid(), bearings))
+    )
+    for name in ("left_force_y", "right_force_y"):
+        assert run[name] == pytest.approx(wanted[name], rel=1e-5)
+
+
 @pytest.mark.parametrize("method", [None, Radau])
 def test_a_run_without_samples_has_the_signals_of_any_other(method: Any) -> None:
     bearings = {"left": HEAVY, "right": FILM}
