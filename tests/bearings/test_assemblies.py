@@ -304,6 +304,7 @@ def test_the_band_of_every_part_is_kept():
             coefficients(one, CENTER, SPEED)
 
 
+@pytest.mark.long
 def test_a_damper_without_springs_carries_no_load():
     bare = Series(DAMPER, Body(2.0), FILM)
     with pytest.raises(EquilibriumError):
@@ -326,7 +327,7 @@ def test_where_the_outer_film_cannot_carry_there_is_no_rest():
         rest_state(series, [9e-4, 0.0], SPEED)
 
 
-@pytest.mark.parametrize("outer", ["full", "ruptured"])
+@pytest.mark.parametrize("outer", ["full", pytest.param("ruptured", marks=pytest.mark.long)])
 def test_small_motion_in_time_is_that_of_the_eigenvalues(outer):
     """A ring on springs in a full film: the exponential of the mounted system; a ruptured one just runs."""
     film = {"full": DAMPER, "ruptured": RUPTURED}[outer]

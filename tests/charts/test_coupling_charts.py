@@ -1,9 +1,11 @@
 import numpy as np
+import pytest
 
 from rotorfilm.charts import plot_coupling_limits, plot_study
 from rotorfilm.studies import coupling_cost, coupling_limits
 
 
+@pytest.mark.long
 def test_limits_are_drawn_and_tabulated(tmp_path):
     limits = coupling_limits(
         eccentricity_ratios=(0.3, 0.7), simulated_at=(), mass_ratios=(0.1,), simulated_ratios=()

@@ -332,6 +332,7 @@ def test_warning_is_one_line_on_stderr_and_is_shown_once(scene):
 FEW = [rung for rung in ladders.journal_rungs() if rung.name in ("published (1, 1)", "2-D 48 x 4", "map")]
 
 
+@pytest.mark.long
 def test_chart_of_accuracy_writes_picture_and_table(run, tmp_path, monkeypatch):
     quick = partial(ladders.journal_accuracy, rungs=FEW, cells=(128, 16), rounds=1)
     monkeypatch.setattr(ladders, "journal_accuracy", quick)

@@ -5,11 +5,14 @@ from dataclasses import replace
 from functools import partial
 from importlib import import_module
 
+import pytest
+
 import rotorfilm.studies as ladders
 from rotorfilm.bearings import PadGridFilm
 from rotorfilm.studies.pad_accuracy import compared_bearings
 
 
+@pytest.mark.long
 def test_chart_of_bearings_writes_pictures_and_tables(run, tmp_path, monkeypatch):
     few = dict(list(ladders.bearing_types(0.5).items())[::7])
     monkeypatch.setattr(
@@ -44,6 +47,7 @@ def without_maps(slenderness):
     return {name: replace(one, film=film) for name, one in compared_bearings(slenderness).items()}
 
 
+@pytest.mark.long
 def test_chart_of_pads_writes_picture_and_table(run, tmp_path, monkeypatch):
     grids = [rung for rung in ladders.pad_rungs() if rung.family == "grid"][:2]
     quick = partial(ladders.pad_accuracy, rungs=grids, cells=(64, 8), rounds=1)

@@ -15,6 +15,7 @@ def tiers():
     return bush_tiers(nodes=(17, 33), steps=(20, 200))
 
 
+@pytest.mark.long
 def test_profiles_converge_and_the_published_stage_does_not(tiers):
     errors = {tier.name: tier["angle error [1]"] for tier in tiers.rungs}
     assert errors["two moments"] < 1e-5

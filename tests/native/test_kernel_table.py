@@ -129,6 +129,7 @@ def build(native, library):
     assert ran.returncode == 0, ran.stderr
 
 
+@pytest.mark.long
 @pytest.mark.closed_form
 @pytest.mark.skipif(not COMPILER or sys.platform == "win32", reason="no C compiler")
 def test_a_new_kernel_is_one_file_and_one_row(tree):

@@ -10,6 +10,7 @@ def paths(compiled):
     return compiled([compiled.here / "paths.c", *sorted(compiled.native.rglob("*.c"))])
 
 
+@pytest.mark.long
 def test_uris_and_paths_of_all_systems(paths):
     expected = {
         "file:///tmp/a/resources": "/tmp/a/resources/rotorfilm.bin",

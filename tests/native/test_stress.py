@@ -195,6 +195,7 @@ def fault(program, *arguments):
     return f"{ran.returncode}: {ran.stderr[-4000:]}" if ran.returncode else ""
 
 
+@pytest.mark.long
 def test_no_misuse_and_no_damaged_file_breaks_an_instance(unzipped, stress, tmp_path):
     token = "a token"
     grooved = RoughGrooves(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)

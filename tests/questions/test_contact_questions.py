@@ -63,14 +63,14 @@ def scene_of(quantity="central_film", tolerance=0.05, excitation="", mass=0.1):
     return parse_scene(text, "ball.toml")
 
 
-@pytest.mark.parametrize("seed", [3, 8])
+@pytest.mark.parametrize("seed", [3, pytest.param(8, marks=pytest.mark.long)])
 def test_estimate_at_rest_is_within_a_factor_of_two_and_the_tolerance_is_met(seed):
     first, *_ = scene_battery.judge(seed, FAMILIES["contact"][1](np.random.default_rng(seed)))
     assert first.right, first
     assert first.met or first.verdict != "chosen", first
 
 
-@pytest.mark.parametrize("quantity", ["central_film", "approach"])
+@pytest.mark.parametrize("quantity", [pytest.param("central_film", marks=pytest.mark.long), "approach"])
 def test_tighter_tolerance_never_selects_a_less_accurate_rung(quantity):
     names = [rung.name for rung in ladder_of(scene_of(quantity)).rungs]
     scene = scene_of(quantity)
@@ -174,6 +174,7 @@ def test_slow_sine_is_answered_at_rest_and_agrees_with_the_film_over_time():
     )
 
 
+@pytest.mark.long
 def test_step_is_met_by_law_and_film_alike():
     scene = scene_of("approach", 0.03, STEP)
     films, shaken = StaticContactFilms(table=scene.contact, quantity="approach"), contact_motion(scene)

@@ -80,11 +80,11 @@ mass = "10 kg"
 """
 SUBSET = [
     ("damper blade loss", 6),
-    ("damper blade loss", 8),
-    ("damper blade loss", 26),
+    pytest.param("damper blade loss", 8, marks=pytest.mark.long),
+    pytest.param("damper blade loss", 26, marks=pytest.mark.long),
     ("damper jumps", 6),
     ("built damper", 6),
-    ("built damper", 38),
+    pytest.param("built damper", 38, marks=pytest.mark.long),
 ]
 """Families and seeds of the battery's scenes that run here; benchmarks/scene_battery.py runs hundreds."""
 
@@ -294,6 +294,7 @@ def test_jump_that_is_not_there_is_said_so():
         asked(scene(cage, JUMPS), "jump_down", 0.1).ask()
 
 
+@pytest.mark.long
 def test_no_jump_is_made_up_beyond_the_reach_of_a_map():
     drawn = FAMILIES["damper jumps"][1]
     random = np.random.default_rng(103)
@@ -384,6 +385,7 @@ def test_shipped_scene_meets_its_tolerance_without_a_warning():
     assert not answer.remarks
 
 
+@pytest.mark.long
 def test_a_short_film_warns_where_it_runs_not_where_a_ladder_answers(recwarn):
     text = JUMPS.replace('length = "25 mm"', 'length = "40 mm"')
     slender = parse_scene(f"{text}unbalance = 1e-4\n", "case.toml")

@@ -128,7 +128,9 @@ OWN_ERROR = 0.004
 """Of T3 on 80 x 8 cells, by its distance from 160 x 16."""
 
 
-@pytest.mark.parametrize("name", BEARINGS)
+@pytest.mark.parametrize(
+    "name", ["demo", "slow", *(pytest.param(n, marks=pytest.mark.long) for n in ("VG 46", "turbine"))]
+)
 def test_estimates_are_within_a_factor_of_two_of_the_true_step(name):
     film, weight, speed = BEARINGS[name]
     load = (0.0, -weight)
@@ -301,7 +303,10 @@ tolerance = 0.2
 """
 
 
-@pytest.mark.parametrize("quantity", ["critical_speed", "whirl_threshold", "unbalance_amplitude"])
+@pytest.mark.parametrize(
+    "quantity",
+    ["critical_speed", pytest.param("whirl_threshold", marks=pytest.mark.long), "unbalance_amplitude"],
+)
 def test_shaft_on_an_oil_is_answered_at_its_temperatures(quantity):
     def asked(oil, viscosity=""):
         return parse_scene(SHAFT.format(oil=oil, viscosity=viscosity, quantity=quantity), "test")

@@ -150,7 +150,10 @@ def test_estimates_of_lobes_are_within_a_factor_of_two_and_tolerances_met(seed):
         assert report.verdict != "chosen" or error < answer.tolerance
 
 
-@pytest.mark.parametrize(("quantity", "tolerance"), [("minimum_film", 0.002), ("stiffness", 0.01)])
+@pytest.mark.parametrize(
+    ("quantity", "tolerance"),
+    [("minimum_film", 0.002), pytest.param("stiffness", 0.01, marks=pytest.mark.long)],
+)
 def test_dams_are_answered_to_their_tolerance(quantity, tolerance):
     scene = asked(DAM, quantity, tolerance)
     answer = scene.ask()
@@ -183,6 +186,7 @@ def test_tilting_pads_without_a_threshold_say_so():
         asked(TILTING + ON_MAP, "whirl_threshold", 0.01).ask()
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("on_one_map")
 def test_threshold_of_a_heavy_rotor_on_hardly_loaded_pads():
     # A light pad about its middle damps a whirl far below the speed negatively.
@@ -215,7 +219,7 @@ def test_whirl_threshold_is_within_its_tolerance(table):
         ("unbalance_amplitude", UNBALANCE, ""),
         ("unbalance_phase", UNBALANCE, ""),
         ("unbalance_force", UNBALANCE, ""),
-        ("peak_displacement", "", LOST_BLADE),
+        pytest.param("peak_displacement", "", LOST_BLADE, marks=pytest.mark.long),
     ],
 )
 def test_motions_on_lobes_agree_with_the_top_of_their_ladder(quantity, rotor, excitation):

@@ -229,7 +229,7 @@ def one_state_error(scale):
     return abs(run.y[0, -1] / moment - 1.0)
 
 
-@pytest.mark.parametrize("melting", [SharedMelting(), LocalMelting()])
+@pytest.mark.parametrize("melting", [SharedMelting(), pytest.param(LocalMelting(), marks=pytest.mark.long)])
 def test_wear_never_falls_whatever_the_load_does(melting):
     """Load drops, vanishes nearly, turns by two right angles, on a full ring of nodes."""
     ring = replace(RING, melting=melting)

@@ -107,7 +107,7 @@ def test_above_the_critical_speed_the_liner_melts_at_the_melting_point():
 
 
 @pytest.mark.closed_form
-@pytest.mark.parametrize("speed", [5.0, -9.0])
+@pytest.mark.parametrize("speed", [5.0, pytest.param(-9.0, marks=pytest.mark.long)])
 def test_the_wear_ends_where_the_critical_speed_has_risen_to_the_speed(speed):
     end = brentq(
         lambda a: BUSH.critical_speed(LOAD, a) - abs(speed), BUSH.contact_angle(LOAD), 1.5, xtol=1e-15
@@ -157,6 +157,7 @@ def test_contact_and_heat_are_balanced(load, speed, wear, f1, f2, whole):
     )
 
 
+@pytest.mark.long
 def test_the_energy_of_a_run_is_conserved():
     """Friction work = heat into shaft and liner + melting heat of the lost volume, over two seconds."""
     speed = 12.0

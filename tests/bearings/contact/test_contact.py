@@ -134,6 +134,7 @@ def test_time_converges_at_the_declared_order(coarse, resting, order):
     assert np.log2(errors[0] / errors[1]) == pytest.approx(order, abs=0.25)
 
 
+@pytest.mark.long
 @pytest.mark.convergence
 def test_error_follows_the_tolerance(coarse, resting):
     load = SineLoad(amplitude=0.4, frequency=2.0)
@@ -193,6 +194,7 @@ def _decay(time, delta):
     return -np.polyfit(peaks, np.log(np.abs(spline(peaks))), 1)[0]
 
 
+@pytest.mark.long
 @pytest.mark.closed_form
 def test_three_ways_to_the_decay_time(coarse, resting, natural):
     small, W = natural[0], 0.5

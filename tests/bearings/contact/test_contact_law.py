@@ -215,6 +215,7 @@ def test_a_bounce_is_that_of_the_full_film(law, resting):
     assert reduced["force_z"].min() == 0.0
 
 
+@pytest.mark.long
 def test_a_motion_beyond_the_loads_of_the_law_is_said_and_better_on_a_law_about_a_larger_load(resting):
     load = StepLoad(amplitude=1.2)
     full = CONTACT.simulate(resting, duration=10.0, W=1.0, load=load, control=FixedSteps(step=0.05))

@@ -144,7 +144,13 @@ def found_by_rung(case, rung):
 
 
 @pytest.mark.literature
-@pytest.mark.parametrize(("case", "rung"), TABLE)
+@pytest.mark.parametrize(
+    ("case", "rung"),
+    [
+        pytest.param(*row, marks=[pytest.mark.long] * (row[1] == "T3 bush" and row[0] != "demo"))
+        for row in TABLE
+    ],
+)
 def test_table_of_an_independent_code(case, rung):
     """A prototype in plain numpy, on 120 x 8 cells and 12 layers; layers are on 80 x 8 here."""
     eccentricity, attitude, power, warmest, K = TABLE[case, rung]

@@ -38,7 +38,10 @@ def converged_force(e, w, slenderness):
 
 
 @pytest.mark.convergence
-@pytest.mark.parametrize(("lowest", "highest", "worst"), [(0.0, 0.95, 1e-4), (0.95, 0.99, 1e-3)])
+@pytest.mark.parametrize(
+    ("lowest", "highest", "worst"),
+    [pytest.param(0.0, 0.95, 1e-4, marks=pytest.mark.long), (0.95, 0.99, 1e-3)],
+)
 def test_bearing_shorter_than_the_table_gets_its_own(lowest, highest, worst):
     # The table comes from finite volumes, the reference from Ritz functions on a free boundary.
     e, w = states(12, lowest, highest)

@@ -219,6 +219,7 @@ def test_slopes_of_the_heat_are_those_of_the_heat(film, position, velocity, spee
         np.testing.assert_allclose(slopes[:, k], change, rtol=1e-6, atol=1e-12)
 
 
+@pytest.mark.long
 def test_film_in_time_comes_to_its_balance(film):
     """Held by a heavy rotor near its rest, the temperature goes from that of fresh oil to that in balance."""
     fast = dataclasses.replace(COOLING, bush_heat_capacity=0.2)

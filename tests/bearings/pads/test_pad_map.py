@@ -37,7 +37,10 @@ def table(*shape):
     return PadMap(*shape).built()
 
 
-shapes = pytest.mark.parametrize(("extent", "slenderness"), [(60, 0.25), (100, 0.5), (150, 1.0)])
+shapes = pytest.mark.parametrize(
+    ("extent", "slenderness"),
+    [(100, 0.5), *(pytest.param(*shape, marks=pytest.mark.long) for shape in ((60, 0.25), (150, 1.0)))],
+)
 
 
 @cache
@@ -204,6 +207,7 @@ def test_beyond_the_unit_circle_and_at_contact():
             assert of.kernel().force(outside, w).status == Status.AT_WALL
 
 
+@pytest.mark.long
 def test_two_pads_without_preload_are_the_map_with_two_openings():
     extent = 160.0 * DEGREE
     geometry = FilmGeometry(grooves=tuple(Groove(center=at, width=20.0 * DEGREE) for at in (0.0, np.pi)))

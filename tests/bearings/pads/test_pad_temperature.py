@@ -129,7 +129,7 @@ def test_mirrored_rotation(name):
 
 
 @pytest.mark.convergence
-@pytest.mark.parametrize("name", ["dam", "pads"])
+@pytest.mark.parametrize("name", [pytest.param("dam", marks=pytest.mark.long), "pads"])
 def test_order_of_the_cells(name):
     places = c * np.array([[0.1, -0.2], [0.15, -0.1]])
 

@@ -139,7 +139,7 @@ def test_a_threshold_that_is_found_says_nothing_of_the_speeds_before():
     assert whirl_threshold(BEARING, load, 200.0, (20.0, 20000.0)).exists
 
 
-@pytest.mark.parametrize("preload", [0.0, 0.6])
+@pytest.mark.parametrize("preload", [0.0, pytest.param(0.6, marks=pytest.mark.long)])
 def test_a_rotor_shaken_up_to_a_lobe_is_told_by_the_lobe(preload):
     """The wall is that of the pads, of clearance 1e-4 m: nearer with preload, and in the gaps beyond it."""
     lobes = lobe_set("three_lobe", preload=preload)

@@ -15,6 +15,7 @@ from rotorfilm import (
 from rotorfilm.analysis import Bifurcation, basin_scan
 
 
+@pytest.mark.long
 @pytest.mark.closed_form
 def test_folds_of_duffing(cubic_bearing):
     mass, k, h, c, unbalance = 1.0, 1.0, 1.0, 0.2, 0.12

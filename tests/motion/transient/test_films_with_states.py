@@ -228,7 +228,7 @@ def leading(kind, shape, speed):
     return values[np.abs(values.imag) > 1.0].real.max()
 
 
-@cells(("warm lobes", "flexible"), without=NO_REST)
+@cells(("warm lobes", "flexible"), ("bearing in a support", "flexible"), without=NO_REST)
 def test_the_threshold_is_that_of_the_state_space(kind, shape):
     rotor, films = placed(kind, shape)
     if shape == "rigid" and kind == "seal with mass":
@@ -287,7 +287,7 @@ def test_a_transient_is_that_of_the_state_space(kind, shape):
         assert run[name] == pytest.approx(row, abs=LINEAR * size + 1e-9 * np.abs(row).max()), name
 
 
-@cells(without=NO_REST)
+@cells("Jeffcott", ("warm lobes", "flexible"), ("warm journal", "flexible"), without=NO_REST)
 def test_a_small_orbit_is_that_of_the_state_space(kind, shape):
     rotor, films, mounted, x = resting(kind, shape)
     turning, _ = placed(kind, shape, unbalance=1e-6)
@@ -380,7 +380,7 @@ def test_python_control_has_the_state_space(kind, shape):
         )
 
 
-@cells("Jeffcott", ("warm lobes", "flexible"), ("warm journal", "flexible"))
+@cells("Jeffcott", "flexible")
 def test_an_fmu_of_both_has_the_motion_of_the_model(kind, shape, tmp_path):
     _, films, mounted, _ = resting(kind, shape)
     path = export_fmu(mounted, tmp_path / "both.fmu", "2.0")

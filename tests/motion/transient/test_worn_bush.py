@@ -48,6 +48,7 @@ def test_the_jacobian_is_that_of_rotor_and_film():
     assert np.abs(error).max() < 1e-9
 
 
+@pytest.mark.long
 @pytest.mark.convergence
 def test_slow_wear_is_that_of_a_shaft_without_inertia():
     speed = 9.0

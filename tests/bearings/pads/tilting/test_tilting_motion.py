@@ -145,6 +145,7 @@ def test_journal_in_time_is_where_another_program_has_it(tilting):
     np.testing.assert_allclose(run.position[:, -1] / 1e-4, [-0.0067, -0.1161], atol=1e-4)
 
 
+@pytest.mark.long
 def test_pads_lift_and_return_and_idle_tilts_do_not_matter(tilting):
     """Under unbalance, from two sets of tilts one orbit, though idle pads differ."""
     bearing = tilting(5, 0.5, 60.0, 0.0, first=270.0, cells=(16, 4))

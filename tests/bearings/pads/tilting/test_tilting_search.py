@@ -153,6 +153,7 @@ def test_the_whirl_threshold_of_light_rotors_scales_with_their_load(tilting):
     assert speeds[1] / speeds[0] == pytest.approx(5.0, rel=1e-3)
 
 
+@pytest.mark.long
 def test_a_load_below_the_roundoff_of_preloaded_pads_is_refused(tilting):
     bearing = tilting(4, 0.5, 60.0, 0.7, film=PadMapFilm())
     with pytest.raises(EquilibriumError, match="load must stand out from the roundoff of the film's forces"):
