@@ -3,6 +3,7 @@
 import ast
 import io
 import tokenize
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -47,19 +48,22 @@ def code_lines(source):
     } - texts
 
 
-def function_lengths(path):
-    """Return (name, code lines) of each function of a file; docstrings do not count."""
+@cache
+def measured(path):
+    """Return the code lines of a file, and (name, code lines) of its functions; docstrings do not count."""
     lines = code_lines(path.read_text(encoding="utf-8"))
+    functions = []
     for node in ast.walk(parse(path)):
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
             body = node.body[1:] if ast.get_docstring(node) else node.body
             if body:
-                yield node.name, len(lines & set(range(body[0].lineno, node.end_lineno + 1)))
+                functions.append((node.name, len(lines & set(range(body[0].lineno, node.end_lineno + 1)))))
+    return len(lines), functions
 
 
 @pytest.mark.parametrize("path", MODULES, ids=identify)
 def test_a_file_is_a_page(path):
-    lines = len(code_lines(path.read_text(encoding="utf-8")))
+    lines, _ = measured(path)
     assert lines <= MAX_FILE_LINES, (
         f"{identify(path)} has {lines} lines of code: it holds more than one subject"
     )
@@ -73,12 +77,12 @@ def test_a_c_file_is_a_page(path):
 
 @pytest.mark.parametrize("path", MODULES, ids=identify)
 def test_functions_are_short(path):
-    long = {name: count for name, count in function_lengths(path) if count > MAX_FUNCTION_LINES}
+    long = {name: count for name, count in measured(path)[1] if count > MAX_FUNCTION_LINES}
     assert not long, f"{identify(path)}: {long}"
 
 
 def test_most_functions_are_very_short():
-    counts = sorted(count for path in MODULES for _, count in function_lengths(path))
+    counts = sorted(count for path in MODULES for _, count in measured(path)[1])
     assert counts[len(counts) // 2] <= 7
     assert sum(count <= USUAL_FUNCTION_LINES for count in counts) >= 0.9 * len(counts)
 
