@@ -332,24 +332,41 @@ def _warm(bearing: Any, load: Array, speed: float) -> Equilibrium:
         return replace(at, temperature=temperature, reaction=bearing.at_temperature(temperature))
     from scipy.optimize import brentq
 
-    warmed: dict[float, Equilibrium] = {}
+    films, steps = cache(bearing.at_temperature), 0
+    scales = getattr(bearing, "scales_with_viscosity", False)
+    cold = scales and _target(quasi_static(bearing.fresh), load, speed, following=True, told=True)
 
+    def rest(temperature: float) -> tuple[Array, int]:
+        if cold:
+            # The film of the coldest oil rests there too, under a load that is larger as it is thicker.
+            thicker = bearing.fresh.film_viscosity / float(bearing.oil.law.viscosity(temperature))
+            cold.struct.force[:] = (-thicker * load).tolist()
+            point = search_place(cold)
+            if point.found:
+                cold.struct.near[:] = point.position
+                return np.array(point.position), point.steps
+        at = _found(films(temperature), load, speed)
+        return at.position, at.iterations
+
+    @cache
     def excess(temperature: float) -> float:
-        warmed[temperature] = at = _found(bearing.at_temperature(temperature), load, speed)
-        warmer = bearing.balanced_temperature(at.position, np.zeros(2), speed) - temperature
+        nonlocal steps
+        position, taken = rest(temperature)
+        steps += taken
+        warmer = bearing.balanced_temperature(position, np.zeros(2), speed) - temperature
         return warmer if abs(warmer) > _KELVIN else 0.0
 
     low = bearing.coldest()
     with warnings.catch_warnings(action="ignore", category=ValidityWarning):
-        rise = excess(low)
-        if rise > 0.0:
-            # Openings make the temperature of the balance rise a little with that of the film.
-            while excess(low + rise) > 0.0:
-                rise *= 2.0
+        if (rise := excess(low)) > 0.0:
+            # Openings make the temperature of the balance rise a little with that of the film: go on a tenth
+            # beyond where the line through the last two temperatures balances.
+            while (left := excess(low + rise)) > 0.0:
+                share = left / max(excess(low) - left, left)
+                low, rise = low + rise, 1.1 * share * rise
             low = brentq(excess, low, low + rise, xtol=_KELVIN, rtol=8.9e-16)
-    steps = sum(one.iterations for one in warmed.values())
-    at = _found(bearing.at_temperature(low), load, speed)  # once more, for what it has to warn of
-    return replace(at, temperature=low, iterations=steps, reaction=bearing.at_temperature(low))
+    at = _found(films(low), load, speed)  # once more, for what it has to warn of
+    return replace(at, temperature=low, iterations=steps, reaction=films(low))
 
 
 def checked_load(load: ArrayLike) -> Array:
@@ -368,7 +385,7 @@ def checked_load(load: ArrayLike) -> Array:
 def _result(reaction: Any, load: Array, target: StaticTarget, point: Any) -> Equilibrium:
     position, speed = np.array(point.position), target.struct.speed
     # A force in Python, or one beyond its map, is asked once more for what it has to warn of.
-    silent = target.is_compiled and point.status == Status.OK
+    silent = target.is_compiled and point.status == Status.OK and not hasattr(reaction, "completed")
     force = np.array(point.force) if silent else reaction.force(position, np.zeros(2), speed)
     angle = math.copysign(1.0, speed) * (point.phi - math.atan2(load[1], load[0]))
     return Equilibrium(

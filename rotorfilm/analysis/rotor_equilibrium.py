@@ -11,7 +11,6 @@ from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
 import numpy as np
-from scipy.linalg import block_diag
 
 from ..core.errors import (
     ConvergenceError,
@@ -268,6 +267,9 @@ class RestEquations:
         self.bearings = list(self.given)
         self.speed = speed
         self.sizes = [len(freedoms_of(bearing)) for bearing in self.given]
+        self.parts = [
+            slice(end - size, end) for end, size in zip(np.cumsum(self.sizes), self.sizes, strict=True)
+        ]
         self.journals = all_rows(structure, {name: bearings[name] for name in self.names})
         self.stiffness = structure.stiffness + speed * structure.circulation
         if structure.hysteresis is not None:
@@ -281,7 +283,7 @@ class RestEquations:
 
     def split(self, values: Array) -> list[Array]:
         """Return what a vector over the rows of all bearings has of each."""
-        return np.split(values, np.cumsum(self.sizes)[:-1]) if self.sizes else []
+        return [values[part] for part in self.parts]
 
     def on_rigid_bearings(self) -> tuple[Array, Array]:
         """Return the displacement of the rotor, and the loads on bearings that do not give way."""
@@ -378,8 +380,10 @@ class RestEquations:
 
     def slopes(self, p: Array) -> Array:
         """Return d(forces)/dp, block by block."""
-        pairs = zip(self.bearings, self.split(p), strict=True)
-        return np.asarray(block_diag(np.zeros((0, 0)), *(slopes_at(b, at, self.speed) for b, at in pairs)))
+        found = np.zeros((len(p), len(p)))
+        for part, bearing in zip(self.parts, self.bearings, strict=True):
+            found[part, part] = slopes_at(bearing, p[part], self.speed)
+        return found
 
     def residual(self, q: Array, p: Array, s: float, pressed: Array) -> tuple[Array, Array]:
         """Return what is left of the forces on the rotor, and of the displacements of its journals.

@@ -8,12 +8,16 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.model import Array, Linearization
+from .film_call import FilmCall, address_of
 from .film_kernels import Batch, FilmKernel
 from .library import loops
 from .structs import structure
 
 REST = ("tilt", "pivot", "load", "stiffness", "by_speed", "least", "unloaded")
 """The numbers of rf_tilting_rest."""
+
+REMEMBERED = 16
+"""Places of journals at rest of which the answers are kept."""
 
 
 class TiltingPoint(NamedTuple):
@@ -107,6 +111,7 @@ class TiltingKernel:
         self.struct = structure("rf_tilting")(pad, self.pads, place, *scales)
         self.states = self.pads * (2 if spring > 0.0 else 1) * (2 if inertia > 0.0 else 1)
         self._reference = byref(self.struct)
+        self._last: dict[tuple[float, ...], RestPoint] = {}
 
     def at(self, u: Array, x: Array, *, slopes: bool = False) -> TiltingPoint:
         """Return rates and outputs, and if asked for their derivatives, at an input (5,) and a state."""
@@ -120,14 +125,32 @@ class TiltingKernel:
         return TiltingPoint(rates, answers, Linearization(*by) if by else None, status, pad.value)
 
     def at_rest(self, position: Array, speed: float) -> RestPoint:
-        """Return the pads at rest under a journal at rest at a position (2,) [m]."""
+        """Return the pads at rest under a journal at rest at a position (2,) [m].
+
+        Force, slopes and pads are asked for one after the other: the last places are remembered.
+        """
+        key = (*position.tolist(), speed)
+        if key not in self._last:
+            if len(self._last) >= REMEMBERED:
+                self._last.clear()
+            self._last[key] = self._rest(position, speed)
+        return self._last[key]
+
+    def _rest(self, position: Array, speed: float) -> RestPoint:
         position, pad = _floats(position), c_size_t()
         force, slopes, rests = np.empty(2), np.empty((2, 5)), np.empty((self.pads, len(REST)))
         places = [one.ctypes.data for one in (force, slopes, rests)]
         status = loops()["rf_tilting_at_rest"](
             self._reference, position.ctypes.data, speed, *places, byref(pad)
         )
+        for kept in (force, slopes, rests):
+            kept.setflags(write=False)
         return RestPoint(force, slopes, dict(zip(REST, rests.T, strict=True)), status, pad.value)
+
+    @property
+    def still(self) -> FilmCall:
+        """The force on a journal at rest."""
+        return FilmCall(address_of("rf_tilting_still"), addressof(self.struct), self)
 
     def forces(self, u: Array, tilts: Array, rates: Array) -> Batch:
         """Return forces (2, n) at inputs (5, n) and given tilts and their rates, (pads, n) [m], [m/s]."""

@@ -342,6 +342,11 @@ class WarmBearing(LaminarFilm):
             raise InputError(f"oil and cooling must be given for heat, got {self.oil!r} and {self.cooling!r}")
         return self.oil, self.cooling
 
+    @cached_property
+    def fresh(self) -> Self:
+        """The bearing at the temperature below which the film never gets."""
+        return self.at_temperature(self.coldest())
+
     def coldest(self) -> float:
         """Return the temperature below which the film never gets [K]; raises InputError without cooling."""
         return self.cooled[1].coldest
@@ -383,7 +388,7 @@ class WarmBearing(LaminarFilm):
 
         if self.turbulence is not None:
             return fed_temperature(heat, oil, cooling)
-        return balance_temperature(heat(cooling.coldest), oil, cooling)
+        return balance_temperature(self.fresh.film_heat(position, velocity, speed), oil, cooling)
 
     def in_time(self, start_temperature: float | None = None) -> HeatedBearing:
         """Return the bearing whose film warms and cools over time.
@@ -505,8 +510,18 @@ def carried_share(inflow: Array, arriving: Array, carry_over: float) -> tuple[Ar
 
 def heat_surplus(heat: FilmHeat, oil: Oil, cooling: Cooling, temperature: float) -> tuple[float, float]:
     """Return heat made less heat taken away at a temperature [W], and its derivative [W/K]; (1)."""
+    return _surplus(heat, oil, cooling, temperature, _carried(heat, oil, cooling))
+
+
+def _carried(heat: FilmHeat, oil: Oil, cooling: Cooling) -> float:
+    """Return the heat that the oil carries away [W/K]."""
+    return float(oil.volumetric_heat(cooling.supply_temperature)) * heat.flow
+
+
+def _surplus(
+    heat: FilmHeat, oil: Oil, cooling: Cooling, temperature: float, with_oil: float
+) -> tuple[float, float]:
     power = heat.power / heat.viscosity * float(oil.law.viscosity(temperature))
-    with_oil = float(oil.volumetric_heat(cooling.supply_temperature)) * heat.flow
     housing = cooling.housing_conductance
     taken = with_oil * (temperature - cooling.supply_temperature) + housing * (temperature - cooling.ambient)
     return power - taken, -power * float(oil.law.thinning(temperature)) - with_oil - housing
@@ -529,9 +544,9 @@ def balance_temperature(heat: FilmHeat, oil: Oil, cooling: Cooling) -> float:
             "housing_conductance must be positive where no oil leaves the film, as of a centered journal, "
             "got 0"
         )
-    T = cooling.coldest
+    T, carried = cooling.coldest, _carried(heat, oil, cooling)
     for _ in range(_STEPS):
-        surplus, slope = heat_surplus(heat, oil, cooling, T)
+        surplus, slope = _surplus(heat, oil, cooling, T, carried)
         step = -surplus / slope
         T += step
         if abs(step) <= _ROUNDOFF * T:

@@ -208,6 +208,12 @@ class PadBearing(WarmBearing):
             return film
         return film.at_scale(self.radius * self.clearance / self.film_viscosity)
 
+    @property
+    def scales_with_viscosity(self) -> bool:
+        """Whether its force is of degree one in the viscosity, as that of laminar oil on rigid pivots."""
+        changing = self.turbulence or getattr(self.film_at_speed, "mobility", None)
+        return changing is None and getattr(self, "pivot_stiffness", None) is None
+
     def making_time(self) -> float:
         """Return about how long the maps of its pads take on this machine [s]; 0 if none is to be made."""
         film: Any = with_mobility(getattr(self, "film", None), self.turbulent_mobility)
@@ -311,11 +317,12 @@ def losses_of_pads(
         gap_of_pad(film, pad.extent, pad.eccentricity, 0.5 * omega).shear if full_gap else flows[k].shear
         for k, pad in enumerate(pads)
     ]
-    force, drag = np.zeros((2, omega.size)), np.zeros(omega.size)
     per_shear = bearing.film_viscosity * omega * bearing.radius**3 * bearing.length / bearing.clearance
-    for pad, shear in zip(pads, shears, strict=True):
-        drag += per_shear * shear + 0.5 * bearing.clearance * cross(pad.eccentricity, pad.force)
-        force += pad.turning @ pad.force
+    e, F = (np.stack(rows, axis=1) for rows in zip(*(pad[2:4] for pad in pads), strict=True))
+    drag = per_shear * sum(shears) + 0.5 * bearing.clearance * cross(e, F).sum(axis=0)
+    middles = np.array([[pad.middle] for pad in pads])
+    c, s = np.cos(middles), np.sin(middles)
+    force = np.stack([(c * F[0] - s * F[1]).sum(axis=0), (s * F[0] + c * F[1]).sum(axis=0)])
     into, out = (np.stack([getattr(each, name) for each in flows]) for name in ("inflow", "arriving"))
     starts = [pad.start for pad in pads]
     return collected_losses(bearing, starts, drag, force, (into, out), state)
@@ -373,8 +380,8 @@ def flows_of_pads(
         alike = [k for k, pad in enumerate(pads) if pad.extent == extent]
         e = np.concatenate([pads[k].eccentricity for k in alike], axis=1)
         together = film.losses(extent, slenderness)(e, np.tile(rate, len(alike)))
-        parts = [np.split(row, len(alike), axis=-1) for row in together if row is not None]
-        found |= {k: PadFlows(*(part[number] for part in parts)) for number, k in enumerate(alike)}
+        parts = [row.reshape(*row.shape[:-1], len(alike), -1) for row in together if row is not None]
+        found |= {k: PadFlows(*(part[..., number, :] for part in parts)) for number, k in enumerate(alike)}
     return [found[k] for k in range(len(pads))]
 
 

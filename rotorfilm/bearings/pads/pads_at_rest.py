@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, fields
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -29,6 +29,7 @@ from ...core.readable import Readable
 from ...core.results import BearingLosses, Equilibrium
 from ...core.signals import Signal
 from ...native import Status
+from ...native.film_call import FilmCall
 from ...native.pad_kernels import RestPoint
 from ..reaction import broadcast_state
 from .pad_bearing import WEDGE, PadUnderJournal, losses_of_pads
@@ -65,12 +66,13 @@ def even_pivots(
     return tuple(first + (k + 0.5 * between_pads) * pitch for k in range(pads))
 
 
-def relative_travel_limit(pivots: Sequence[float]) -> float:
+@lru_cache
+def relative_travel_limit(pivots: tuple[float, ...]) -> float:
     """Return how far a journal may go where each pivot lets it go to 1: the farthest corner, at most `OPEN`.
 
     Parameters
     ----------
-    pivots : sequence of float [rad]
+    pivots : tuple of float [rad]
     """
     widest = float(np.max(gaps(pivots)))
     return min(OPEN, 1.0 / math.cos(0.5 * widest)) if widest < math.pi else OPEN
@@ -82,10 +84,13 @@ def gaps(pivots: ArrayLike) -> Array:
     return np.diff(angles, append=angles[0] + 2.0 * math.pi)
 
 
-def directions(pivots: Sequence[float]) -> Array:
+@lru_cache
+def directions(pivots: tuple[float, ...]) -> Array:
     """Return n and t of each pivot as the columns of a matrix, shape (pads, 2, 2)."""
     c, s = np.cos(pivots), np.sin(pivots)
-    return np.stack([np.stack([c, -s], axis=-1), np.stack([s, c], axis=-1)], axis=1)
+    columns = np.stack([np.stack([c, -s], axis=-1), np.stack([s, c], axis=-1)], axis=1)
+    columns.setflags(write=False)
+    return columns
 
 
 # What the statuses of tilting pads mean, with the pad named.
@@ -323,11 +328,16 @@ class StaticTiltingPads:
             )
         if point.status == Status.OUTSIDE:
             warn_beyond_map(least_films(point.pads["least"]), self.bearing.kernel.film)
-        return point.force
+        return point.force.copy()
 
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return d force / d (x, y, vx, vy, speed), shape (2, 5), those by the velocity 0."""
-        return self._point(position, velocity, speed).slopes
+        return self._point(position, velocity, speed).slopes.copy()
+
+    def compiled(self) -> FilmCall | None:
+        """Return the force on a journal at rest in the C library."""
+        still: FilmCall = self.bearing.kernel.still
+        return still
 
     def prepare_tangent(self) -> Tangent:
         """Return force and slopes as a function of five numbers."""
@@ -532,6 +542,9 @@ class FrozenTiltingPads(StaticTiltingPads):
         """Return about where a journal rests [m]: where the film is frozen; see `core.port`."""
         place: tuple[float, float] | None = self.film.frozen_at
         return place
+
+    def compiled(self) -> None:
+        """Return None: the viscosity of a film may change along it."""
 
     def at_rest(self) -> FrozenTiltingPads:
         """Return this film: it has a force for a journal at rest only."""

@@ -50,8 +50,11 @@ typedef struct rf_tilting_rest {
 } rf_tilting_rest;
 
 /* All pads at rest under a journal at rest: force[2], its derivatives by[2][5] as of a reaction unless NULL, by the
-   velocity 0, and `pads`, count of them. */
+   velocity 0, and unless NULL `pads`, count of them. */
 RF_EXPORT_LOOP int rf_tilting_at_rest(const rf_tilting *bearing, const double *position, double speed, double *force,
                                  double *by, rf_tilting_rest *pads, size_t *pad);
+
+/* The same of an rf_tilting as the response of a film (../films/film.h), whose journal must not move. */
+RF_EXPORT_LOOP int rf_tilting_still(const void *of, const double *state, double *force, double *by);
 
 #endif

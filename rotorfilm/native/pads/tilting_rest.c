@@ -65,18 +65,27 @@ int rf_tilting_at_rest(const rf_tilting *bearing, const double *position, double
         return RF_NOT_FINITE;
     for (size_t k = 0; k < bearing->count; ++k) {
         const double *n = bearing->pivot + 2 * k;
-        const int status = rest_one(bearing, n, position, speed, pads + k);
+        rf_tilting_rest rest;
+        const int status = rest_one(bearing, n, position, speed, &rest);
+        if (pads)
+            pads[k] = rest;
         if (status > worst) {
             worst = status;
             *pad = k;
         }
         for (int i = 0; i < 2; ++i) {
-            force[i] -= n[i] * pads[k].load;
+            force[i] -= n[i] * rest.load;
             for (int j = 0; by && j < 2; ++j)
-                by[5 * i + j] -= n[i] * n[j] * pads[k].stiffness;
+                by[5 * i + j] -= n[i] * n[j] * rest.stiffness;
             if (by)
-                by[5 * i + 4] -= n[i] * pads[k].by_speed;
+                by[5 * i + 4] -= n[i] * rest.by_speed;
         }
     }
     return worst;
+}
+
+int rf_tilting_still(const void *of, const double *state, double *force, double *by)
+{
+    size_t pad;
+    return state[2] || state[3] ? RF_NOT_FINITE : rf_tilting_at_rest(of, state, state[4], force, by, NULL, &pad);
 }

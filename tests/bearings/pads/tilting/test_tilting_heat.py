@@ -5,7 +5,15 @@ import dataclasses
 import numpy as np
 import pytest
 
-from rotorfilm import Cooling, InputError, Oil, coefficients, equilibrium, whirl_threshold
+from rotorfilm import (
+    Cooling,
+    InputError,
+    Oil,
+    TiltingPadBearing,
+    coefficients,
+    equilibrium,
+    whirl_threshold,
+)
 from rotorfilm.bearings import PadGridFilm, PadMapFilm, PadResolution, heat_surplus
 from rotorfilm.bearings.pads.pad_build import PadMap, pad_grid
 from rotorfilm.bearings.pads.pads_at_rest import directions, turning
@@ -87,6 +95,25 @@ def test_heat_of_the_equilibrium_balances(five, stiffness):
     np.testing.assert_allclose(frozen.pads.tilts, at.pads.tilts, rtol=1e-10)
     ours, theirs = (coefficients(each, at.position, SPEED) for each in (of, held))
     np.testing.assert_allclose(ours.stiffness, theirs.stiffness, rtol=1e-12)
+
+
+def test_a_warm_equilibrium_solves_its_heat_few_times(five, monkeypatch):
+    asked = {"losses": 0, "at_temperature": 0}
+
+    def counting(name):
+        own = getattr(TiltingPadBearing, name)
+
+        def counted(*args, **options):
+            asked[name] += 1
+            return own(*args, **options)
+
+        monkeypatch.setattr(TiltingPadBearing, name, counted)
+
+    counting("losses")
+    counting("at_temperature")
+    equilibrium(five(viscosity=None, oil=OIL, cooling=COOLING), LOAD, SPEED)
+    assert asked["losses"] <= 6
+    assert asked["at_temperature"] <= 2
 
 
 def test_oil_that_does_not_thin_is_isothermal(five):
