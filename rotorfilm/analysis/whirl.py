@@ -311,10 +311,14 @@ def _refined(
     bracket: tuple[Coefficients, Coefficients],
     passed: list[str],
 ) -> WhirlThreshold:
+    known = {math.log(one.speed): one for one in bracket}
+
     def margin(log_speed: float) -> float:
-        with _passing(passed):
-            at = equilibrium(reaction, load, math.exp(log_speed))
-            return whirl_margin(film_coefficients(reaction, at.position, at.speed), mass)
+        if log_speed not in known:
+            with _passing(passed):
+                at = equilibrium(reaction, load, math.exp(log_speed))
+                known[log_speed] = film_coefficients(reaction, at.position, at.speed)
+        return whirl_margin(known[log_speed], mass)
 
     stable, unstable = bracket
     if whirl_margin(unstable, mass) > 0.0:
@@ -325,7 +329,7 @@ def _refined(
         )
     root = _root(margin, math.log(stable.speed), math.log(unstable.speed), xtol=1e-14)
     onset = equilibrium(reaction, load, math.exp(root))
-    border = critical_mass(film_coefficients(reaction, onset.position, onset.speed))
+    border = critical_mass(known.get(root) or film_coefficients(reaction, onset.position, onset.speed))
     return _threshold(reaction, onset, mass, border.whirl_ratio, border.mass)
 
 

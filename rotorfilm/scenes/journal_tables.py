@@ -30,6 +30,7 @@ from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarnin
 from ..core.limits import FUNCTIONS, MAP_NODES
 from ..core.progress import Report
 from ..core.readable import Readable
+from ..core.results import Equilibrium
 from .families import isothermal, messages, remarks_of
 from .reading import (
     COUNTS,
@@ -266,12 +267,13 @@ class JournalTable(ConservingTable, OiledTable):
         oil: Lubricant,
         speed: float,
         load: tuple[float, float],
+        at: Equilibrium | None = None,
     ) -> tuple[str, ...]:
         """Return what its physics leaves out and should not; see `film_remarks`."""
         if isinstance(bearing, HeldTilt):
             return film_remarks(bearing.journal.bearing, oil, speed, load)
         turbulent = turbulent_remarks(without_oil(bearing), speed, load)
-        return (*turbulent, *film_remarks(bearing, oil, speed, load))
+        return (*turbulent, *film_remarks(bearing, oil, speed, load, at))
 
     def make_map(self, report: Report) -> None:
         """Make the map of openings, where there are some and the film is one, unless it lies on disk."""
@@ -337,11 +339,17 @@ SLIGHT = 0.1
 
 
 def journal_numbers(
-    bearing: JournalBearing, oil: Lubricant, speed: float, load: tuple[float, float], film: Any = None
+    bearing: JournalBearing,
+    oil: Lubricant,
+    speed: float,
+    load: tuple[float, float],
+    film: Any = None,
+    at: Equilibrium | None = None,
 ) -> dict[str, float]:
     """Return the dimensionless numbers of a bearing at a speed [rad/s] and a load [N].
 
-    Loss and flow are those of a film, or if None is given of a quick one of the bearing.
+    Loss and flow are those of a film, or if None is given of a quick one of the bearing; `at` is its
+    equilibrium where that is known.
 
     Returns
     -------
@@ -371,7 +379,7 @@ def journal_numbers(
     volumetric = oil.density * oil.heat_capacity
     numbers = film_numbers((R, bearing.length, c, mu), oil, speed, load)
     peclet = numbers["peclet"]
-    power, flow, eccentricity_ratio = film_loss(bearing, speed, load, film)
+    power, flow, eccentricity_ratio = film_loss(bearing, speed, load, film, at)
     conducted = mu * (omega * R) ** 2 / (8.0 * oil.conductivity)
     carried = power / (volumetric * flow) if flow else conducted
     share = min(eccentricity_ratio / SLIGHT, 1.0) ** 2
@@ -422,12 +430,17 @@ def film_numbers(
 
 
 def film_loss(
-    bearing: JournalBearing, speed: float, load: tuple[float, float], film: Any = None
+    bearing: JournalBearing,
+    speed: float,
+    load: tuple[float, float],
+    film: Any = None,
+    at: Equilibrium | None = None,
 ) -> tuple[float, float, float]:
     """Return power [W], side flow [m3/s] and eccentricity ratio of an isothermal film.
 
-    If none is given it is the film of the bearing where that is quick: a map of the package, or the short
-    film; else a coarse grid. Not-a-number, all three, where that film has no answer under the load.
+    The equilibrium `at` is taken if it is that of the film. If no film is given it is that of the bearing
+    where that is quick: a map of the package, or the short film; else a coarse grid. Not-a-number, all three,
+    where that film has no answer under the load.
     """
     R, L, c = bearing.radius, bearing.length, bearing.clearance
     concentric = 2.0 * math.pi * bearing.film_viscosity * speed**2 * R**3 * L / c, 0.0, 0.0
@@ -435,7 +448,9 @@ def film_loss(
         return concentric
     with warnings.catch_warnings(action="ignore", category=ValidityWarning):
         try:
-            at = equilibrium(film or _quick(bearing), load, speed)
+            film = film or _quick(bearing)
+            if at is None or vars(at)["_reaction"] is not film:
+                at = equilibrium(film, load, speed)
             losses = at.losses
         except RotorfilmError:
             return math.nan, math.nan, math.nan
@@ -454,7 +469,11 @@ def _quick(bearing: JournalBearing) -> JournalBearing:
 
 
 def film_remarks(
-    bearing: JournalBearing | JFOFilm, oil: Lubricant, speed: float, load: tuple[float, float]
+    bearing: JournalBearing | JFOFilm,
+    oil: Lubricant,
+    speed: float,
+    load: tuple[float, float],
+    at: Equilibrium | None = None,
 ) -> tuple[str, ...]:
     """Return the neglected effects that matter, one line each, at a speed [rad/s] and a load [N].
 
@@ -467,7 +486,7 @@ def film_remarks(
         remarks = isothermal(remarks)
         own = warmed(own, film or _quick(own), speed, load)
         film = film and film.at_temperature(own.temperature)
-    numbers = journal_numbers(own, oil, speed, load, film)
+    numbers = journal_numbers(own, oil, speed, load, film, at)
     if own.turbulence is not None:
         numbers["turbulence"] = 0.0
     return messages(remarks, numbers)

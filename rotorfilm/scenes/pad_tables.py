@@ -103,7 +103,7 @@ class PadTable(OiledTable):
         return echo_of_pads(self.data, bearing), pad_film_name(film)
 
     def remarks(
-        self, bearing: AnyPads, oil: Lubricant, speed: float, load: tuple[float, float]
+        self, bearing: AnyPads, oil: Lubricant, speed: float, load: tuple[float, float], at: Any = None
     ) -> tuple[str, ...]:
         """Return what its physics leaves out and should not."""
         pads = without_oil(bearing)

@@ -213,7 +213,7 @@ class BallTable(Taking):
         return made_from(BallData, self), name
 
     def remarks(
-        self, bearing: Balls, oil: Lubricant, speed: float, load: tuple[float, float]
+        self, bearing: Balls, oil: Lubricant, speed: float, load: tuple[float, float], at: Any = None
     ) -> tuple[str, ...]:
         """Return what its physics leaves out and should not."""
         return ball_remarks(bearing, speed, load, self.oil, self.roughness)

@@ -21,6 +21,7 @@ from ..core.inputs import nearest
 from ..core.limits import LINE_DOTS, SCENE_BYTES
 from ..core.port import Reaction
 from ..core.progress import Report, silent
+from ..core.results import Equilibrium
 from ..core.sources import offered
 from ..core.units import STANDARD_GRAVITY, whole_number
 from ..rotors.rigid import RigidRotor
@@ -289,7 +290,7 @@ class Scene:
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
         given = self.film_table.repeated_inputs(bearing)
         answer = film_answer(bearing, given, load=self.static_load, speed=self.speed, mass=mass)
-        return replace(answer, remarks=self._remarks_of(bearing))
+        return replace(answer, remarks=self._remarks_of(bearing, answer.equilibrium))
 
     @property
     def given(self) -> Mapping[str, Any]:
@@ -332,8 +333,8 @@ class Scene:
         """Effects that the film neglects although they matter, one line each."""
         return self._remarks_of(self.bearing)
 
-    def _remarks_of(self, bearing: Reaction) -> tuple[str, ...]:
-        own = self.film_table.remarks(bearing, self.lubricant.properties, self.speed, self.static_load)
+    def _remarks_of(self, bearing: Reaction, at: Equilibrium | None = None) -> tuple[str, ...]:
+        own = self.film_table.remarks(bearing, self.lubricant.properties, self.speed, self.static_load, at)
         return (*oil_remarks(self.tables, self.lubricant), *own)
 
     @property

@@ -23,6 +23,7 @@ from ..core.errors import (
 from ..core.limits import SEEDS, STEPS
 from ..core.progress import Report
 from ..core.readable import Readable
+from ..core.results import Equilibrium
 from ..core.units import CELSIUS
 from ..rotors.profile import SpeedProfile
 from ..rotors.rigid import RigidRotor
@@ -584,9 +585,17 @@ class FilmTable(Protocol):
         """Return what an answer repeats of the bearing that was built, and the name of its film."""
 
     def remarks(
-        self, bearing: Any, oil: Lubricant, speed: float, load: tuple[float, float]
+        self,
+        bearing: Any,
+        oil: Lubricant,
+        speed: float,
+        load: tuple[float, float],
+        at: Equilibrium | None = None,
     ) -> tuple[str, ...]:
-        """Return what its physics leaves out and should not, at a speed [rad/s] and a load [N]."""
+        """Return what its physics leaves out and should not, at a speed [rad/s] and a load [N].
+
+        `at` is the equilibrium of the bearing where it is known.
+        """
 
     def make_map(self, report: Report) -> None:
         """Make the map that the bearing needs, unless it lies on disk."""
