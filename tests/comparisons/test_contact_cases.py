@@ -149,6 +149,7 @@ def test_statements_judge_known_curves(made_up):
         assert by_text[f"the amplitude of {name} falls with W"].verdict == "confirmed"
 
 
+@pytest.mark.long
 def test_cases_become_a_table_curves_and_figures(made_up, tmp_path):
     table = made_up.columns()
     assert set(table["section"]) == {"4", "4.1", "4.2", "4.3"}

@@ -162,6 +162,7 @@ def test_steps_of_a_contact_are_judged_by_their_known_damping(name, order):
         assert shown == pytest.approx({1.0: -(y**2) / 2.0, 3.0: -(y**4) / 4.0}[order], rel=1e-3)
 
 
+@pytest.mark.long
 @pytest.mark.convergence
 def test_upwind_grid_of_a_contact_converges():
     found = curves(atlas.contact_grid)
@@ -174,6 +175,7 @@ def test_upwind_grid_of_a_contact_converges():
     assert 4.0 / 24.0 < atlas.failure(*found["smallest film, upwind"], FAILED) < 4.0 / 16.0
 
 
+@pytest.mark.long
 @pytest.mark.convergence
 def test_nodes_of_a_worn_bush_converge():
     curve = curves(atlas.bush_nodes)["largest"]

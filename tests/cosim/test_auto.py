@@ -38,6 +38,7 @@ def test_the_cheapest_scheme_that_will_do_is_taken(degrees, tolerance, expected)
     assert np.abs(own.position - exact.position).max() < 1.5 * tolerance * extent
 
 
+@pytest.mark.long
 def test_auto_is_the_word_for_it_and_takes_what_fmus_can_do(tmp_path):
     rotor, bearing = cost_case()
     film = export_fmu(bearing, tmp_path / "film.fmu")

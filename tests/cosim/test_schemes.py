@@ -219,6 +219,7 @@ def monolithic(model, duration, count):
     return {signal.name: series for signal, series in zip(model.outputs, outputs.T, strict=True)}
 
 
+@pytest.mark.long
 def test_a_rotor_that_is_not_linear_is_integrated_as_well():
     """One film is inside the rotor, the other is coupled."""
     shaft, films = shaft_on_two_films()

@@ -73,7 +73,7 @@ def test_a_bad_parameter_is_named(opened):
     assert any("clearance must be below the radius" in line for line in instance.log)
 
 
-@versions
+@pytest.mark.parametrize("version", [pytest.param("2.0", marks=pytest.mark.long), "3.0"])
 def test_a_rotor_in_pressure_dams_is_one_system(version, tmp_path):
     """The whole system in C: the FMU of rotor and bearing follows the motion in Python."""
     rotor = RigidRotor(mass=10.0, speed=300.0, unbalance=1e-4)

@@ -91,7 +91,15 @@ def test_tilting_pads_are_native_by_default_and_pass_all_checks(model, version, 
     assert [item.check for item in check_fmu(path) if item.passed is False] == []
 
 
-@kinds
+@pytest.mark.parametrize(
+    ("model", "version"),
+    [
+        (LIGHT, "3.0"),
+        (SPRUNG, "3.0"),
+        pytest.param(HEAVY, "2.0", marks=pytest.mark.long),
+        pytest.param(BOTH, "3.0", marks=pytest.mark.long),
+    ],
+)
 def test_tilts_are_those_of_a_tight_integration(model, version, tmp_path):
     model, end = started(model), 2e-3
     start = dict(zip(INPUTS, PLACE.tolist(), strict=True))

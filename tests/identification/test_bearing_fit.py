@@ -105,7 +105,7 @@ def test_grooves_go_by_differences():
     assert fit.bearing.clearance == pytest.approx(truth.clearance, rel=1e-4)
 
 
-@pytest.mark.parametrize("told", [True, False])
+@pytest.mark.parametrize("told", [True, pytest.param(False, marks=pytest.mark.long)])
 def test_intervals_cover_the_truth_as_often_as_they_say(told):
     """Of 100 fits some 90 +- 3 have the truth in an interval of 90 %."""
     sigma, exact, speeds = 5e-7, seen(COLD, speeds=SPEEDS[::2]), SPEEDS[::2]

@@ -330,7 +330,7 @@ def test_pads_on_an_oil_are_as_warm_as_their_balance(table, quantity):
         assert fresh[0].error_estimate == pytest.approx(error, rel=0.3)
 
 
-@TABLES
+@pytest.mark.parametrize("table", [LOBED, *(pytest.param(t, marks=pytest.mark.long) for t in (DAM, TILTING))])
 def test_a_temperature_field_judges_and_answers_where_one_temperature_is_not_enough(table):
     scene = asked(on_oil(table), "power_loss", 0.015, excitation=OIL)
     rungs = {rung.name.split(",")[0]: rung for rung in reversed(ladder_of(scene).rungs)}
@@ -344,6 +344,7 @@ def test_a_temperature_field_judges_and_answers_where_one_temperature_is_not_eno
     assert not about.doubt
 
 
+@pytest.mark.long
 def test_threshold_on_an_oil_is_that_of_films_as_warm_as_their_rest():
     scene = asked(on_oil(LOBED), "whirl_threshold", 0.5, excitation=OIL)
     answer, warm = scene.ask(), replace(scene.bearing, film=PadGridFilm(cells=(48, 4)))

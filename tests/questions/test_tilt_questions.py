@@ -68,6 +68,7 @@ def test_the_least_film_takes_the_cheapest_level_that_is_good_enough(tilt, toler
     assert not level.startswith("no") or not tilt > 1e-4 or answer.error_estimate < 2.0 * error
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("without_map")
 def test_stiffness_and_threshold_follow_the_tilt():
     held = exact(5e-4, (96, 8))

@@ -169,6 +169,7 @@ def shaft_of():
     return rf.ShaftRotor(elements=(piece,), stations=ends, speed=SPEED)
 
 
+@pytest.mark.long
 def test_an_fmu_of_film_and_rotor_moves_as_the_simulation(tmp_path):
     # The film alone tells force and mass; its exchange with a rotor that takes no mass is refused.
     start = rotor(position=(2e-5, 0.0))
