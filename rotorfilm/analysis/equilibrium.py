@@ -351,7 +351,15 @@ def _warm(bearing: Any, load: Array, speed: float) -> Equilibrium:
     @cache
     def excess(temperature: float) -> float:
         nonlocal steps
-        position, taken = rest(temperature)
+        try:
+            position, taken = rest(temperature)
+        except EquilibriumError as error:
+            if not steps:
+                raise
+            raise EquilibriumError(
+                "load must be carried by a film as warm as its own heat makes it, and at "
+                f"{temperature:.4g} K none carries it: {error}"
+            ) from error
         steps += taken
         warmer = bearing.balanced_temperature(position, np.zeros(2), speed) - temperature
         return warmer if abs(warmer) > _KELVIN else 0.0

@@ -183,7 +183,7 @@ def _searched(
     before: Coefficients | None = None
     with _passing(passed):
         for at in _coefficients_over(reaction, load, speeds[first:].tolist()):
-            if damping_has_rank_one(at):
+            if _does_no_work(at) or damping_has_rank_one(at):
                 return WhirlThreshold(**NO_THRESHOLD, reason=critical_mass(at).reason)
             stable.append(is_stable(at, mass))
             if before is not None and stable[-2:] == [True, False]:
@@ -495,6 +495,12 @@ def damping_has_rank_one(coefficients: Coefficients) -> bool:
     return bool(abs(_determinant(C)) <= _RANK_TOLERANCE * np.sum(C**2))
 
 
+def _does_no_work(coefficients: Coefficients) -> bool:
+    """Return whether C is skew, as that of a gyroscopic force, so that its power v C v is zero."""
+    C = coefficients.damping
+    return bool(np.any(C) and np.abs(C + C.T).max() <= _RANK_TOLERANCE * np.abs(C).max())
+
+
 def is_stable(coefficients: Coefficients, mass: float) -> bool:
     """Return whether all roots of det(m s^2 + C s + K) have negative real parts (Routh, Hurwitz)."""
     return bool(
@@ -519,6 +525,8 @@ def whirl_margin(coefficients: Coefficients, mass: float) -> float:
 def _why_no_border(coefficients: Coefficients) -> str:
     if not np.any(coefficients.damping):
         return "no damping (C = 0): whirl neither grows nor decays by it, whatever the mass"
+    if _does_no_work(coefficients):
+        return "damping does no work (C = -C^T): whirl neither grows nor decays by it, whatever the mass"
     if damping_has_rank_one(coefficients):
         return "damping matrix has rank 1 (det C = 0): stability does not depend on the mass"
     if np.trace(coefficients.damping) <= 0.0 or _determinant(coefficients.damping) < 0.0:

@@ -234,11 +234,13 @@ class StaticRung(CandidateRung):
         better = quantity.value(
             FilmRest(at=at, film=film, bearing=film.rich, position=moved.position, matrices=lambda: moved)
         )
+        apart = quantity.distance(found.value, better, film.supply_temperature)
+        own = quantity.judge_error(film.rich)
         return ErrorEstimate(
-            quantity.distance(found.value, better, film.supply_temperature),
+            apart + own,
             f"defect of {film.rich_name}",
             film.judged(smooth=quantity.slopes, defects=1 if quantity.slopes or quantity.position else 2),
-            bound=film.bounded,
+            bound=film.bounded or own > apart,
             doubt=moved.doubt,
             better=None if moved.doubt else better,
         )

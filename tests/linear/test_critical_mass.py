@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from rotorfilm import Coefficients
+from rotorfilm import Coefficients, LinearBearing, whirl_threshold
 from rotorfilm.analysis import critical_mass
 from rotorfilm.analysis.whirl import is_stable
 
@@ -86,6 +86,19 @@ def test_damping_of_rank_one_gives_a_reason_in_any_axes(angle):
     border = critical_mass(film(R @ [[2.0, 1.0], [-1.0, 2.0]] @ R.T, damping))
     assert border.mass is None
     assert "rank 1" in border.reason
+
+
+@pytest.mark.closed_form
+def test_skew_damping_does_no_work():
+    """As a gyroscopic force: all motion of a rotor on springs is neutral, of any mass."""
+    at = film(1e6 * np.eye(2), [[0.0, 500.0], [-500.0, 0.0]], speed=100.0)
+    for mass in (0.1, 10.0, 1e3):
+        assert np.abs(roots(at, mass).real).max() < 1e-9 * np.abs(roots(at, mass)).max()
+    assert critical_mass(at).reason.startswith("damping does no work (C = -C^T): whirl neither grows nor")
+    bearing = LinearBearing(stiffness=1e6, damping=((0.0, 500.0), (-500.0, 0.0)))
+    onset = whirl_threshold(bearing, [0.0, -100.0], 10.0, speed_range=(1.0, 1e4))
+    assert onset.speed is None
+    assert onset.reason == critical_mass(at).reason
 
 
 def test_whirl_ratio_needs_rotation():

@@ -50,6 +50,16 @@ def test_the_state_of_a_turbulent_film_has_the_force_of_its_bearing():
     assert state.maximum_pressure > math.hypot(*LOAD) / (0.2 * 0.1)
 
 
+def test_a_pad_that_no_warm_film_carries_is_refused_at_its_temperature():
+    """Cold oil carries the load on a step of fixed depth; the oil that it warms does not."""
+    sizes = {"inner_radius": 0.097, "outer_radius": 0.17, "pads": 5, "pad_arc": 1.1, "step_depth": 4.8e-5}
+    pads = rf.ThrustBearing(**sizes, step_share=0.47, **OIL, cells=(16, 8))
+    load = [-130e3, 0.0, 0.0]
+    assert rf.equilibrium(pads.at_temperature(313.15), load, 222.0).minimum_film > 2e-5
+    with pytest.raises(rf.EquilibriumError, match=r"as warm as its own heat makes it, and at \S+ K none"):
+        rf.equilibrium(pads, load, 222.0)
+
+
 def test_an_answer_without_a_bound_is_json():
     assert json.loads(json_text({"a": math.inf, "b": np.array([1.0, -np.inf])})) == {
         "a": None,

@@ -54,7 +54,7 @@ class FilmState(Drawable):
     thickness : ndarray, shape (N,) [m]
         Film thickness.
     maximum_pressure : float [Pa]
-        Largest pressure at a node.
+        Largest pressure, also between the nodes.
     """
 
     force: Array
@@ -186,8 +186,31 @@ def _with_field(state: FilmState, bearing: JournalBearing, field: FilmField) -> 
         axial=0.5 * (bearing.length - bearing.film_length * (1.0 - field.axial)),
         pressure=pressure,
         thickness=bearing.clearance * field.thickness,
-        maximum_pressure=float(np.max(pressure)),
+        maximum_pressure=largest_pressure(field.angle, pressure),
     )
+
+
+def largest_pressure(angle: Array, pressure: Array) -> float:
+    """Return the largest pressure of a film around the journal, also between the lines of its grid.
+
+    A parabola through three lines has its vertex there. Where the pressure has an edge, as at a feed hole,
+    its second differences differ from line to line, and that at the node is returned.
+
+    Parameters
+    ----------
+    angle : ndarray, shape (N,) [rad]
+        Lines of the grid, around the whole journal.
+    pressure : ndarray, shape (N, M + 1) [Pa]
+    """
+    line, row = np.unravel_index(np.argmax(pressure), pressure.shape)
+    five = np.arange(line - 2, line + 3) % len(angle)
+    x, p = np.unwrap(angle[five]), pressure[five, row]
+    slopes = np.diff(p) / np.diff(x)
+    curvature = np.diff(slopes) / (x[2:] - x[:-2])
+    if not abs(curvature[0] - 2.0 * curvature[1] + curvature[2]) < -curvature[1]:
+        return float(p[2])
+    slope = (slopes[1] * (x[3] - x[2]) + slopes[2] * (x[2] - x[1])) / (x[3] - x[1])
+    return float(p[2] - slope**2 / (4.0 * curvature[1]))
 
 
 # Pressure of a splitting film, and the tension that films carry.
