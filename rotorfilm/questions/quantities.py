@@ -80,7 +80,7 @@ def _pressure_error(rich: Any) -> float:
 
     1.3e-4 is the median of random journals with 16 cells along half the length, and 2e-4 nearly the most.
     """
-    grid = grid_of(getattr(rich, "film", None))
+    grid = grid_of(rich.film) if hasattr(rich, "film") else None
     return 12.0 / grid.cells[1] ** 4 if grid is not None else 0.0
 
 
