@@ -10,10 +10,11 @@ from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
+from ..core.dynamic_stiffness import has_own_stiffness, states_rest
 from ..core.errors import AbsentError, ConvergenceError, InputError, require_positive, warn_user
 from ..core.inputs import arguments, in_si, quantities
 from ..core.model import Array
-from ..core.port import Bearings, carries_load, has_own_stiffness, states_rest
+from ..core.port import Bearings, carries_load
 from ..core.readable import Drawable, Readable
 from ..core.results import Coefficients
 from ..rotors import ShaftRotor, Station

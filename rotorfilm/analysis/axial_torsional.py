@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import eig
 
+from ..core.dynamic_stiffness import small_motion
 from ..core.errors import (
     EquilibriumError,
     InputError,
@@ -20,7 +21,7 @@ from ..core.errors import (
 )
 from ..core.inputs import arguments, quantities
 from ..core.model import Array
-from ..core.port import MOST_LEFT, freedoms_of, small_motion
+from ..core.port import MOST_LEFT, freedoms_of
 from ..core.readable import Readable
 from ..rotors import Coupling, LayeredElement, ShaftRotor, SkewedCollar
 from ..rotors.mounted import Bearings

@@ -10,6 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..core.dynamic_stiffness import (
+    InertialStiffness,
+    coefficients_of,
+    drifts,
+    rest_linearization,
+    small_motion,
+    states_rest,
+)
 from ..core.errors import (
     InputError,
     brief,
@@ -22,11 +30,8 @@ from ..core.inputs import arguments
 from ..core.model import Array
 from ..core.port import (
     Complex,
-    InertialStiffness,
     Reaction,
     at_balanced_temperature,
-    coefficients_of,
-    drifts,
     freedoms_of,
     in_time,
     inertial,
@@ -35,9 +40,6 @@ from ..core.port import (
     require_place,
     require_range,
     require_reaction,
-    rest_linearization,
-    small_motion,
-    states_rest,
     static_slopes,
     warn_of_flow,
 )

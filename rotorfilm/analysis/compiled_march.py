@@ -52,7 +52,7 @@ from .compiled_rotor import (
     state_matrices,
     take_apart,
 )
-from .force_calls import raise_foreign, warn_beyond, warn_of_thin_films
+from .force_calls import of_station, raise_foreign, warn_beyond, warn_of_thin_films
 from .threads import one_blas_thread
 
 LONGEST_TURN = 1.0
@@ -550,12 +550,19 @@ class March:
     def _failure(self, end: End, kept: Complex) -> ContactError | ConvergenceError:
         at = f"at t = {self.time:.9g} s"
         if end == End.WALL:
-            return ContactError(f"journal reached the wall {at}", kept)
+            return ContactError(f"journal{of_station(self._closest())} reached the wall {at}", kept)
         if end == End.BROKEN:
             return ConvergenceError(
                 f"film force must be finite and the forces of a step solvable, {at}", kept
             )
         return ConvergenceError(f"integration needs steps below {SHORTEST:g} of the duration {at}", kept)
+
+    def _closest(self) -> str:
+        """Return the station whose journal is nearest to its wall."""
+        parts, walls = self.modal.parts, self._kept[2].walls
+        motion = (self.modal.sense @ self.state).real + self.modal.journal_rest
+        shares = np.hypot(*motion.reshape(-1, 4)[:, :2].T) / walls
+        return parts.names[int(np.argmax(shares)) // parts.points]
 
 
 def spin_struct(speed: float | None, rates: tuple[Array, Array] | None) -> Any:

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..core.dynamic_stiffness import quasi_static, states_rest
 from ..core.errors import (
     ConvergenceError,
     EquilibriumError,
@@ -40,12 +41,10 @@ from ..core.port import (
     is_warming,
     minimum_film,
     prepared_tangent,
-    quasi_static,
     relative_film,
     require_place,
     require_reaction,
     rest_place,
-    states_rest,
     static_force,
     static_slopes,
     warn_of_flow,

@@ -57,6 +57,11 @@ THINNEST = 1e-7
 """Least film [m] that separates the finest bearing surfaces, of a roughness of about 0.05 um each."""
 
 
+def of_station(station: str) -> str:
+    """Return how a message names a station, which a rotor with one journal does not need."""
+    return f" of {station!r}" if station else ""
+
+
 def warn_of_thin_films(films: Mapping[str, Any], run: Trajectory) -> None:
     """Warn where a run has a film, by its station, that is thinner than surfaces are rough."""
     for station, film in films.items():
@@ -66,7 +71,7 @@ def warn_of_thin_films(films: Mapping[str, Any], run: Trajectory) -> None:
         least = minimum_film(film, np.array(place))
         if least[at := int(np.argmin(least))] < THINNEST:
             warn_user(
-                f"the least film{f' of {station!r}' if station else ''} should be at least {THINNEST:g} m, "
+                f"the least film{of_station(station)} should be at least {THINNEST:g} m, "
                 "as thick as the finest surfaces are rough, got "
                 f"{least[at]:.3g} m at t = {run.time[at]:.6g} s: "
                 "real surfaces touch there, and the force of this smooth film is no prediction"

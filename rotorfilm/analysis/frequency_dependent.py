@@ -11,16 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from ..core.dynamic_stiffness import DynamicStiffness, InertialStiffness, states_rest
 from ..core.errors import ConvergenceError
 from ..core.model import Array
-from ..core.port import (
-    GROWTH_ROUNDOFF,
-    Bearings,
-    DynamicStiffness,
-    InertialStiffness,
-    freedoms_of,
-    states_rest,
-)
+from ..core.port import Bearings, freedoms_of
 from ..core.results import Coefficients, FrequencyDependentCoefficients, InertialCoefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
@@ -34,6 +28,7 @@ from .rotor_matrices import (
     second_order,
     whirl_near,
 )
+from .whirl import GROWTH_ROUNDOFF
 
 REACH = 20.0
 """Frequency / speed up to which exponents are told apart in the phase; few faster ones feel the oil."""

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..core.dynamic_stiffness import coefficients_of, has_own_stiffness, rest_state, small_motion, states_rest
 from ..core.errors import ConvergenceError, InputError, brief, require_finite, require_kind, require_positive
 from ..core.inputs import arguments, quantities
 from ..core.model import Array, Linearization, Model
@@ -18,14 +19,9 @@ from ..core.port import (
     Complex,
     Reaction,
     at_balanced_temperature,
-    coefficients_of,
     freedoms_of,
-    has_own_stiffness,
     input_of,
     require_reaction,
-    rest_state,
-    small_motion,
-    states_rest,
     static_slopes,
 )
 from ..core.readable import Readable

@@ -21,10 +21,11 @@ from scipy.linalg.lapack import zgbtrf, zgbtrs
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
+from ..core.dynamic_stiffness import quasi_static
 from ..core.errors import ConvergenceError, UnloadedPadWarning
 from ..core.frames import ResultTable
 from ..core.model import Array
-from ..core.port import Bearings, freedoms_of, quasi_static, require_reactions, static_force, static_slopes
+from ..core.port import Bearings, freedoms_of, require_reactions, static_force, static_slopes
 from ..core.readable import Tabled, table_of, table_text
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import (

@@ -22,17 +22,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.linalg import matrix_balance
 
+from ..core.dynamic_stiffness import rest_state
 from ..core.errors import ConvergenceError, InputError, require_inside
 from ..core.model import Array
-from ..core.port import (
-    clearance_of,
-    freedoms_of,
-    inertial,
-    minimum_film,
-    rest_state,
-    static_force,
-    static_slopes,
-)
+from ..core.port import clearance_of, freedoms_of, inertial, minimum_film, static_force, static_slopes
 from ..core.signals import PLANAR
 from ..rotors import FlexibleRotor, MountedRotor, RigidRotor, mount
 from ..rotors.mounted import Mount

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 from ..core.errors import ConvergenceError, EquilibriumError
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.port import GROWTH_ROUNDOFF, Bearings
+from ..core.port import Bearings
 from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..rotors import FlexibleRotor
@@ -32,6 +32,7 @@ from .rotor_equilibrium import rest
 from .rotor_matrices import oscillates, value_error, whirl_near
 from .rotor_modes import RotorModes, bands_of, directions, motions_at, speeds_in_turn
 from .threads import one_blas_thread
+from .whirl import GROWTH_ROUNDOFF
 
 FURTHER = 1e-6
 """Part of a step by which a motion is seen to grow beyond its threshold."""

@@ -49,7 +49,7 @@ from ..rotors.mounted import Mount, wired
 from ..rotors.structure import prefixed, station_names
 from .compiled_march import require_duration, require_longest_step, sample_times, simulate_rotor
 from .compiled_rotor import CONTACT_GAP, compiled_form, takes_forces
-from .force_calls import warn_of_thin_films
+from .force_calls import of_station, warn_of_thin_films
 from .rotor_equilibrium import rotor_equilibrium
 from .stepped_run import simulate_steps
 from .threads import one_blas_thread
@@ -248,10 +248,9 @@ def _initial(system: Coupled, initial_state: ArrayLike) -> Array:
 def _require_gap(system: Coupled, t: float, state: Array) -> None:
     gap, journal = system.closest(t, state)
     if gap <= CONTACT_GAP:
-        where = f" of {journal.station!r}" if journal.station else ""
         raise ContactError(
-            f"journal{where} reached the wall at t = {t:.9g} s: {gap:.3g} of the clearance "
-            f"{clearance_of(journal.reaction)!r} m is left"
+            f"journal{of_station(journal.station)} reached the wall at t = {t:.9g} s: {gap:.3g} of the "
+            f"clearance {clearance_of(journal.reaction)!r} m is left"
         )
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..core.errors import AbsentError, ConvergenceError
 from ..core.model import Array
-from ..core.port import GROWTH_ROUNDOFF, Bearings, freedoms_of
+from ..core.port import Bearings, freedoms_of
 from ..core.results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, freedom_rows
@@ -30,6 +30,7 @@ from .rotor_matrices import (
 )
 from .rotor_modes import RotorModes, critical_speeds, rotor_modes
 from .rotor_thresholds import rotor_threshold
+from .whirl import GROWTH_ROUNDOFF
 
 NEAR = 1.1
 """Critical speeds up to so many times the first are followed with it."""

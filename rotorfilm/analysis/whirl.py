@@ -13,6 +13,14 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..core.dynamic_stiffness import (
+    InertialStiffness,
+    coefficients_of,
+    has_own_stiffness,
+    rigid_exponents,
+    small_motion,
+    states_rest,
+)
 from ..core.errors import (
     AbsentError,
     ConvergenceError,
@@ -27,18 +35,11 @@ from ..core.errors import (
 from ..core.inputs import arguments
 from ..core.model import Array
 from ..core.port import (
-    GROWTH_ROUNDOFF,
-    InertialStiffness,
     Reaction,
     at_balanced_temperature,
     clearance_of,
-    coefficients_of,
     freedoms_of,
-    has_own_stiffness,
     require_reaction,
-    rigid_exponents,
-    small_motion,
-    states_rest,
     warn_of_flow,
     warn_of_load,
 )
@@ -54,6 +55,9 @@ from ..core.signals import PLANAR
 from .coefficients import coefficients_at, film_coefficients
 from .equilibrium import checked_load, equilibrium, settled
 from .threads import one_blas_thread
+
+GROWTH_ROUNDOFF = 1e-9
+"""Growth rate / frequency that is roundoff."""
 
 _POINTS_PER_DECADE = 12
 _SPEED_FACTOR = 100.0

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..core.dynamic_stiffness import QuasiStatic, quasi_static, rest_linearization, rest_state, states_rest
 from ..core.errors import (
     EquilibriumError,
     FilmContactError,
@@ -27,7 +28,6 @@ from ..core.model import Array, Linearization, static_linearization
 from ..core.port import (
     Force,
     PlanarReaction,
-    QuasiStatic,
     Reaction,
     Tangent,
     carries_load,
@@ -43,14 +43,10 @@ from ..core.port import (
     minimum_film,
     prepared_force,
     prepared_tangent,
-    quasi_static,
     require_range,
     require_reaction,
     require_terminals,
-    rest_linearization,
     rest_place,
-    rest_state,
-    states_rest,
     static_force,
     static_slopes,
 )

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
+from ..core.dynamic_stiffness import QuasiStatic, StatesStiffness, rest_linearization
 from ..core.errors import (
     InputError,
     brief,
@@ -23,7 +24,7 @@ from ..core.errors import (
 )
 from ..core.inputs import quantities
 from ..core.model import Array, Linearization
-from ..core.port import Complex, QuasiStatic, StatesStiffness, rest_linearization
+from ..core.port import Complex
 from ..core.signals import (
     FREEDOMS,
     PLANAR,

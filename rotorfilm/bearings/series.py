@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..core.dynamic_stiffness import newton_root, no_rest, quasi_static, rest_state, states_rest
 from ..core.errors import (
     EquilibriumError,
     InputError,
@@ -28,12 +29,7 @@ from ..core.port import (
     freedoms_of,
     inertial,
     mass_of,
-    newton_root,
-    no_rest,
-    quasi_static,
     require_range,
-    rest_state,
-    states_rest,
     static_force,
     static_slopes,
 )

@@ -20,7 +20,6 @@ from ..analysis.driven_rotor import (
 )
 from ..analysis.harmonic_balance import driven, first_wave, newton_step, resized, rms
 from ..analysis.speed_events import on_films
-from ..bearings.seal import AnnularSeal
 from ..core.answers import DISAGREEMENT, SAFETY, ErrorEstimate, Ladder, Rung, RungResult, Work, WorkUnit
 from ..core.errors import ContactError, InputError
 from ..core.model import Array
@@ -470,7 +469,7 @@ def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     rotor = scene.shaft.build(scene.speed, (excitation,) if isinstance(excitation, UnbalanceTable) else ())
     if isinstance(excitation, RunUpTable):
         rotor = replace(rotor, speed=excitation.profile(scene.speed))
-    levels, bearings = tuple(map(_massless, shaft_films.film_levels(given))), given.build_bearings()
+    levels, bearings = shaft_films.film_levels(given), given.build_bearings()
     if levels[0].on_oil:
         raise InputError(
             f"journal of a bearing must have a viscosity for {quantity}, got an oil in {levels[0].on_oil}"
@@ -483,7 +482,6 @@ def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         times=run_times(duration, fastest),
         base=excitation.motion(duration) if isinstance(excitation, GroundTable) else None,
     )
-    seals = [name for name, one in bearings.items() if isinstance(one, AnnularSeal)]
     models = [
         model
         for model in shaft_models(rotor)  # reduced, and meshes of the element of the file
@@ -493,20 +491,8 @@ def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     ladder = Ladder(
         rungs=tuple(peak_rung(*part, levels[-1], shaken) for part in parts),
         unit="m",
-        remarks=(
-            *shaft_remarks(rotor, bearings, scene.lubricant.properties, fastest),
-            *(f"{name}: the added mass of the seal, in runs over time" for name in seals),
-        ),
+        remarks=shaft_remarks(rotor, bearings, scene.lubricant.properties, fastest),
         within=shaft_physics(bearings),
     )
     journals = {name: film.reaction for name, film in levels[0].journals.items()}
     return turbulent_run(scene, journals, ladder, partial(_moved, parts[0][2]))
-
-
-def _massless(films: shaft_films.ShaftFilms) -> shaft_films.ShaftFilms:
-    """Return bearings that the compiled integration takes: seals without their added mass."""
-    springs = {
-        name: replace(one, added_mass=False) if isinstance(one, AnnularSeal) else one
-        for name, one in films.springs.items()
-    }
-    return replace(films, springs=springs)

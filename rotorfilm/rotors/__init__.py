@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from .force_law import ForceLaw, LawRotor
     from .motor import LinearMotor as LinearMotor, MotorDrivenRotor as MotorDrivenRotor
     from .mounted import MountedRotor as MountedRotor, UnbalancePlane as UnbalancePlane, mount as mount
+    from .prescribed_speed import SpeedInputRotor, SteadyRotor as SteadyRotor
     from .profile import SpeedProfile as SpeedProfile
     from .reduced_rotor import (
         ModallyDampedRotor as ModallyDampedRotor,
@@ -52,8 +53,6 @@ if TYPE_CHECKING:
     )
     from .shaft_rotor import ShaftRotor as ShaftRotor
     from .skewed_collar import SkewedCollar
-    from .speed_input import SpeedInputRotor
-    from .steady import SteadyRotor as SteadyRotor
     from .structure import FlexibleRotor as FlexibleRotor, require_flexible
 else:
     show(__name__)

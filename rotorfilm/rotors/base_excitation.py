@@ -13,11 +13,11 @@ from numpy.typing import ArrayLike
 from ..core.errors import InputError, require_finite, require_kind, require_positive
 from ..core.inputs import in_si, quantities
 from ..core.limits import STEPS
-from ..core.model import Array, Linearization, breakpoints
+from ..core.model import Array, breakpoints
 from .reduced_rotor import ReducedRotor
 from .rigid import RigidRotor
 from .shaft_rotor import ShaftRotor
-from .structure import AroundRotor, FlexibleRotor, dense_matrix
+from .structure import AroundStructure, FlexibleRotor, dense_matrix
 
 PER_PERIOD = 20
 """Samples per period of the highest frequency of a spectrum: chords between them are 0.4 % off."""
@@ -164,8 +164,10 @@ class BaseMotion:
         return np.array([self.times, *(row if row else still for row in given)])
 
 
-class TimeExcitedRotor(AroundRotor):
+class TimeExcitedRotor(AroundStructure):
     """What rotors have in common that something excites over time: q'' = ... + columns a(t).
+
+    On ground that shakes the outputs are relative to it.
 
     Attributes
     ----------
@@ -180,11 +182,6 @@ class TimeExcitedRotor(AroundRotor):
     columns: Array
     rows: Array
 
-    @property
-    def stations(self) -> tuple[str, ...]:  # type: ignore[override]
-        """The stations of the rotor."""
-        return self.rotor.structure.stations
-
     @cached_property
     def breakpoints(self) -> tuple[float, ...]:
         """Times [s] at which speed or excitation have kinks."""
@@ -195,14 +192,6 @@ class TimeExcitedRotor(AroundRotor):
         rate = np.array(self.rotor.derivative(t, x, u))
         rate[len(rate) // 2 :] += self.columns @ _sampled(self.rows, t)
         return rate
-
-    def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return the outputs of the rotor; on ground that shakes they are relative to it."""
-        return self.rotor.output(t, x, u)
-
-    def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
-        """Return the derivatives of the rotor, which the excitation does not change."""
-        return self.rotor.linearization(t, x, u)
 
 
 @quantities

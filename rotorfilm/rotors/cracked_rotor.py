@@ -25,7 +25,7 @@ from .profile import SpeedProfile
 from .rigid import JeffcottRotor
 from .shaft_elements import ShaftElement
 from .shaft_rotor import ShaftRotor
-from .structure import AroundRotor
+from .structure import AroundStructure
 
 # Cracks of a shaft: which motion they give way to, and how much of the stiffness they take.
 
@@ -210,7 +210,7 @@ class OpenCrack:
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class CrackedRotor(AroundRotor):
+class CrackedRotor(AroundStructure):
     """A rotor with one crack: its stiffness rotates with the shaft, and the crack may breathe.
 
         M q'' + (C + w G) q' + (K + w H - share(p) E' R(p)' diag(loss) R(p) E) q = ...
@@ -254,11 +254,6 @@ class CrackedRotor(AroundRotor):
         _ = self.weakness
 
     @property
-    def stations(self) -> tuple[str, ...]:  # type: ignore[override]
-        """The stations of the rotor."""
-        return self.rotor.structure.stations
-
-    @property
     def profile(self) -> SpeedProfile:
         """The speed as a profile."""
         return self.rotor.profile
@@ -274,10 +269,6 @@ class CrackedRotor(AroundRotor):
         half = len(rate) // 2
         rate[half:] += self._lift @ (self.lost(t) @ (self.weakness[0] @ np.asarray(x, dtype=float)[:half]))
         return rate
-
-    def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return the outputs of the rotor."""
-        return self.rotor.output(t, x, u)
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives, which depend on the time."""

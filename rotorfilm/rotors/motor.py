@@ -14,9 +14,9 @@ from ..core.errors import InputError, require_kind, require_non_negative, requir
 from ..core.inputs import quantities
 from ..core.model import Array, Linearization, breakpoints
 from ..core.signals import Signal
-from .profile import SpeedProfile
+from .profile import SpeedProfile, require_constant_speed
 from .rigid import RigidRotor
-from .structure import AroundRotor, FlexibleRotor, beside, force_rows
+from .structure import AroundStructure, FlexibleRotor, beside, force_rows
 
 # The torque of a motor over its speed.
 
@@ -108,7 +108,7 @@ class _Turn(NamedTuple):
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class MotorDrivenRotor(AroundRotor):
+class MotorDrivenRotor(AroundStructure):
     """A rotor that is driven by a torque, instead of a given speed: a Dynamic model.
 
     With the angle p turned, w = p', the coordinates q of the rotor and its unbalance U (docs of `Structure`),
@@ -149,12 +149,11 @@ class MotorDrivenRotor(AroundRotor):
         require_kind("rotor", self.rotor, RigidRotor | FlexibleRotor, "a rotor such as a JeffcottRotor")
         require_kind("torque", self.torque, DriveTorque, "a torque such as a LinearMotor")
         require_positive("inertia", self.inertia)
-        if isinstance(self.rotor.speed, SpeedProfile):
-            raise InputError(
-                f"rotor.speed must be a number, the speed at t = 0, got {self.rotor.speed!r}: "
-                "a profile of the idle speed of a LinearMotor drives it"
-            )
-        _ = self.rotor.operators
+        require_constant_speed(
+            self.rotor,
+            "rotor.speed must be a number, the speed at t = 0",
+            ": a profile of the idle speed of a LinearMotor drives it",
+        )
         s = self.rotor.structure
         if s.twist is not None:
             raise InputError("rotor must not twist beside a motor, got one with torsional=True")
@@ -163,11 +162,6 @@ class MotorDrivenRotor(AroundRotor):
             raise InputError(
                 f"inertia must be larger than that of the unbalance, {taken:.6g} kg m2, got {self.inertia!r}"
             )
-
-    @property
-    def stations(self) -> tuple[str, ...]:  # type: ignore[override]
-        """The stations of the rotor."""
-        return self.rotor.structure.stations
 
     @cached_property
     def outputs(self) -> tuple[Signal, ...]:

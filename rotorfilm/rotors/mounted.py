@@ -32,9 +32,9 @@ from ..core.port import (
 )
 from ..core.signals import PLANAR, Signal, indices, names
 from ..native.spec import HasKernel, NativeSpec
+from .prescribed_speed import SpeedInputRotor
 from .profile import SpeedProfile
 from .rigid import RigidRotor, native_parameter
-from .speed_input import SpeedInputRotor
 from .structure import AroundRotor, FlexibleRotor, Operators, prefixed, station_names, unbalance_columns
 
 

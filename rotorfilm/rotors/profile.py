@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -151,6 +152,13 @@ class SpeedProfile:
         k = max(bisect_right(self.times, t) - 1, 0)
         elapsed = t - self.times[k]
         return self._angles[k] + elapsed * (self.speeds[k] + 0.5 * self.acceleration(t) * elapsed)
+
+
+def require_constant_speed(rotor: Any, rule: str, hint: str = "") -> None:
+    """Raise InputError unless the speed of a rotor is a number and it has equations over time."""
+    if isinstance(rotor.speed, SpeedProfile):
+        raise InputError(f"{rule}, got {rotor.speed!r}{hint}")
+    _ = rotor.operators
 
 
 class Turning:

@@ -11,16 +11,16 @@ from numpy.typing import ArrayLike
 
 from ..core.errors import require_number
 from ..core.inputs import quantities
-from ..core.model import Array, Linearization
+from ..core.model import Array
 from ..core.signals import indices, names
-from .structure import AroundRotor, FlexibleRotor, freedom_rows, require_flexible, station_names
+from .structure import AroundStructure, FlexibleRotor, freedom_rows, require_flexible, station_names
 
 TILTS = ("tilt_x", "tilt_y")
 
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class SkewedCollar(AroundRotor):
+class SkewedCollar(AroundStructure):
     """A rotor whose thrust collar is out of square: a Dynamic model for runs over time.
 
     What acts at the station feels the tilts of the shaft plus skew (cos p, sin p), p being the angle that the
@@ -55,19 +55,10 @@ class SkewedCollar(AroundRotor):
         for name in ("skew", "skew_angle"):
             require_number(name, getattr(self, name))
 
-    @property
-    def stations(self) -> tuple[str, ...]:  # type: ignore[override]
-        """The stations of the rotor."""
-        return self.rotor.assembly.stations
-
     @cached_property
     def _places(self) -> list[int]:
         motion = station_names(self.station, TILTS)[0]
         return indices("rotor must have the outputs", names(self.rotor.outputs), motion)
-
-    def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return dx/dt of the rotor."""
-        return self.rotor.derivative(t, x, u)
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the outputs of the rotor, with the tilts of the collar at its station."""
@@ -76,7 +67,3 @@ class SkewedCollar(AroundRotor):
         c, s = self.skew * math.cos(p), self.skew * math.sin(p)
         found[self._places] += [c, s, -speed * s, speed * c]
         return found
-
-    def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
-        """Return the derivatives of the rotor, which a skew does not change."""
-        return self.rotor.linearization(t, x, u)

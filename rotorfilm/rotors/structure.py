@@ -713,6 +713,29 @@ class AroundRotor:
         return [indices("rotor must have the outputs", available, station_names(s)[0]) for s in self.stations]
 
 
+class AroundStructure(AroundRotor):
+    """What models share that change a rigid or flexible rotor: its stations and its equations."""
+
+    rotor: Any
+
+    @property
+    def stations(self) -> tuple[str, ...]:  # type: ignore[override]
+        """The stations of the rotor."""
+        return self.rotor.structure.stations
+
+    def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return dx/dt of the rotor at the time t [s] for the forces u [N] at the stations."""
+        return self.rotor.derivative(t, x, u)
+
+    def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return the outputs of the rotor."""
+        return self.rotor.output(t, x, u)
+
+    def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
+        """Return the derivatives of the rotor."""
+        return self.rotor.linearization(t, x, u)
+
+
 # A rigid rotor on an isotropic film as seen in axes that turn with its orbit.
 
 

@@ -22,9 +22,10 @@ from ..bearings.thrust import (
     TiltingThrustBearing,
     double_acting,
 )
+from ..core.dynamic_stiffness import quasi_static
 from ..core.errors import EquilibriumError, InputError, require_number, require_positive
 from ..core.model import Array
-from ..core.port import Reaction, quasi_static, static_force
+from ..core.port import Reaction, static_force
 from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.results import Coefficients, Equilibrium

@@ -14,8 +14,9 @@ from numpy.typing import ArrayLike
 from ..analysis import coefficients, equilibrium, whirl_threshold
 from ..analysis.whirl import is_stable
 from ..bearings import pads
+from ..core.dynamic_stiffness import rigid_exponents, states_rest
 from ..core.errors import EquilibriumError, InputError, require_finite, require_positive
-from ..core.port import Reaction, rigid_exponents, states_rest
+from ..core.port import Reaction
 from ..core.progress import Report, silent
 from .study import Study, StudyCase, StudyModel, StudyResult, run_study
 

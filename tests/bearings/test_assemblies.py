@@ -38,15 +38,8 @@ from rotorfilm import (
 from rotorfilm.analysis import dynamic_stiffness
 from rotorfilm.analysis.force_calls import film_call
 from rotorfilm.bearings import Body, HalfSommerfeld, Series
-from rotorfilm.core.port import (
-    compiled_force,
-    mass_of,
-    quasi_static,
-    require_range,
-    rest_state,
-    small_motion,
-    states_rest,
-)
+from rotorfilm.core.dynamic_stiffness import quasi_static, rest_state, small_motion, states_rest
+from rotorfilm.core.port import compiled_force, mass_of, require_range
 from rotorfilm.core.signals import force_outputs, journal_inputs, names
 
 CENTER, SPEED = np.zeros(2), 300.0

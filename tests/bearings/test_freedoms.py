@@ -16,13 +16,8 @@ from rotorfilm import (
     as_reaction,
     export_fmu,
 )
-from rotorfilm.core.port import (
-    require_terminals,
-    rest_linearization,
-    small_motion,
-    static_force,
-    static_slopes,
-)
+from rotorfilm.core.dynamic_stiffness import rest_linearization, small_motion
+from rotorfilm.core.port import require_terminals, static_force, static_slopes
 from rotorfilm.core.signals import FREEDOMS, force_names, place_names
 
 THRUST = ("z", "tilt_x", "tilt_y")

@@ -30,7 +30,8 @@ from rotorfilm import (
     rotor_modes,
     simulate,
 )
-from rotorfilm.core.port import mass_of, quasi_static, rest_state, rigid_exponents, small_motion
+from rotorfilm.core.dynamic_stiffness import quasi_static, rest_state, rigid_exponents, small_motion
+from rotorfilm.core.port import mass_of
 from rotorfilm.core.signals import FREEDOMS, force_names, names, place_names
 
 RNG = np.random.default_rng(37)

@@ -9,7 +9,15 @@ import numpy as np
 import pytest
 from scipy.signal import lsim
 
-from rotorfilm import AnnularSeal, ContactError, InputError, mount, rotor_equilibrium, simulate_rotor
+from rotorfilm import (
+    AnnularSeal,
+    ContactError,
+    InputError,
+    coefficients,
+    mount,
+    rotor_equilibrium,
+    simulate_rotor,
+)
 from rotorfilm.questions import ladder_of, shaft_orbits as shaft_peaks
 from rotorfilm.rotors.shaft_rotor import split
 from rotorfilm.scenes import read_scene
@@ -18,6 +26,7 @@ from rotorfilm.scenes.shaft_table import BearingTable
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SPRING = {"stiffness": 2e7, "damping": 4e3}
+SEAL = AnnularSeal(radius=0.1, length=0.05, clearance=9e-4, pressure_drop=6e5, viscosity=1e-3, density=1000.0)
 PULSE = [[0.0, 0.0], [0.01, 6.0], [0.025, -9.0], [0.04, 2.0], [0.06, 0.0]]
 RUN_UP = {
     "kind": "run_up",
@@ -52,22 +61,28 @@ def test_the_top_between_samples():
 
 
 @pytest.mark.closed_form
-def test_ground_under_springs_beside_an_exact_march():
+@pytest.mark.parametrize("sealed", [False, True], ids=["springs", "springs and a seal"])
+def test_ground_under_springs_beside_an_exact_march(sealed):
     """Piecewise linear acceleration has an exact march of the dense matrices, assembled here."""
     scene = asked(3e-3, {"kind": "ground", "acceleration": PULSE}, springs=True, unbalances=[])
+    if sealed:
+        ring = BearingTable(name="ring", node=1, seal=SEAL)
+        scene = scene.with_tables(shaft=replace(scene.shaft, bearings=(*scene.shaft.bearings, ring)))
     answer = scene.ask()
     rotor = split(scene.shaft.build(scene.speed), 2)
     s = rotor.structure
     n = len(s.mass)
-    K, C = s.stiffness.copy(), s.damping + scene.speed * s.gyroscopic
+    M, K, C = s.mass.copy(), s.stiffness.copy(), s.damping + scene.speed * s.gyroscopic
+    gap = coefficients(SEAL, np.zeros(2), scene.speed)
     for station in rotor.stations:
-        for k in (2 * station.node, 2 * station.node + n // 2):
-            K[k, k] += SPRING["stiffness"]
-            C[k, k] += SPRING["damping"]
-    along = np.linalg.solve(s.mass, s.weight) / -9.80665  # of a rotor that falls: along y
-    along = np.roll(along, n // 2)
-    A = np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(s.mass, np.hstack([K, C]))]])
-    B = np.concatenate([np.zeros(n), -along])[:, None]
+        pair = np.ix_(*[(2 * station.node, 2 * station.node + n // 2)] * 2)
+        held = station.name == "ring"
+        K[pair] += gap.stiffness if held else SPRING["stiffness"] * np.eye(2)
+        C[pair] += gap.damping if held else SPRING["damping"] * np.eye(2)
+        M[pair] += gap.mass if held else 0.0
+    push = np.roll(s.weight, n // 2) / -9.80665  # of a rotor that falls: along y
+    A = np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(M, np.hstack([K, C]))]])
+    B = np.concatenate([np.zeros(n), -np.linalg.solve(M, push)])[:, None]
     node = 2 * rotor.probes[0].node
     seen = np.zeros((2, 2 * n))
     seen[0, node] = seen[1, node + n // 2] = 1.0
@@ -137,15 +152,3 @@ def test_a_run_that_touches_judges_nothing(monkeypatch):
     told = rung.estimate(found, None, 0.1)
     assert told.error == math.inf
     assert "touches" in told.doubt
-
-
-def test_a_seal_runs_without_its_mass_and_says_so():
-    scene = asked(0.1, RUN_UP, springs=True, unbalances=[])
-    gap = AnnularSeal(
-        radius=0.06, length=0.02, clearance=9e-4, pressure_drop=6e5, viscosity=1e-3, density=1000.0
-    )
-    ring = BearingTable(name="ring", node=1, seal=gap)
-    sealed = scene.with_tables(shaft=replace(scene.shaft, bearings=(*scene.shaft.bearings, ring)))
-    ladder = ladder_of(sealed)
-    assert ladder.remarks == ("ring: the added mass of the seal, in runs over time",)
-    assert ladder.rungs[0].answer(None).value > 0.0

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.dynamic_stiffness import StatesStiffness
 from ...core.errors import (
     InputError,
     require_number,
 )
 from ...core.model import Array, Linearization
-from ...core.port import StatesStiffness
 from ...core.readable import Readable
 from ...core.results import ReducedCoefficients
 

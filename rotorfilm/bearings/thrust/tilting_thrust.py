@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...core.dynamic_stiffness import no_rest
 from ...core.errors import (
     EquilibriumError,
     InputError,
@@ -19,7 +20,6 @@ from ...core.errors import (
 )
 from ...core.inputs import quantities
 from ...core.model import Array, Linearization
-from ...core.port import no_rest
 from ...core.signals import Signal, signals_of
 from ..reaction import NOMINAL_SPEED, input_vector
 from .film_tables import require_tabulable

@@ -10,7 +10,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 import rotorfilm as rf
 from rotorfilm import EquilibriumError, InputError, MomentCarryingBalls, Reaction
 from rotorfilm.bearings.rolling import BALL_FREEDOMS
-from rotorfilm.core.port import freedoms_of, require_terminals, rest_place, small_motion, static_force
+from rotorfilm.core.dynamic_stiffness import small_motion
+from rotorfilm.core.port import freedoms_of, require_terminals, rest_place, static_force
 
 ALL, RADIAL = [0, 1, 2, 3, 4], [0, 1, 3, 4]
 SINGLE = rf.BallBearing(

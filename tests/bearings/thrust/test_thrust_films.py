@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 import rotorfilm as rf
 from rotorfilm.bearings import ThrustBearing, TiltingThrustBearing, double_acting
-from rotorfilm.core.port import small_motion
+from rotorfilm.core.dynamic_stiffness import small_motion
 
 LENGTH, FAR = 4e-4, 4.0
 """Length of pads that are straight, so far out as they are."""

@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 import rotorfilm as rf
 from rotorfilm.bearings import ThrustBearing, TiltingThrustBearing
 from rotorfilm.bearings.thrust.film_tables import FILMS, ThrustFilmTable, film_table
-from rotorfilm.core.port import small_motion
+from rotorfilm.core.dynamic_stiffness import small_motion
 
 NONE, STILL = np.zeros(0), np.zeros(3)
 FIXED = ThrustBearing(

@@ -144,7 +144,7 @@ def test_a_constant_speed_is_one_stretch():
 def test_a_run_up_into_the_wall_keeps_what_was_computed():
     profile = SpeedProfile(times=(0.0, 0.005), speeds=(10.0, 110.0))
     rotor = overhung(profile)
-    with pytest.raises(ContactError, match="journal reached the wall at t = ") as caught:
+    with pytest.raises(ContactError, match=r"journal of 'right' reached the wall at t = ") as caught:
         simulate_rotor(both(rotor, replace(FILM, viscosity=1e-9)), duration=0.05, samples=2001, rtol=1e-6)
     partial = caught.value.partial
     assert 100 < len(partial.time) < 2001
