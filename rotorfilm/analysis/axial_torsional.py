@@ -21,10 +21,9 @@ from ..core.errors import (
 )
 from ..core.inputs import arguments, quantities
 from ..core.model import Array
-from ..core.port import MOST_LEFT, freedoms_of
+from ..core.port import MOST_LEFT, Bearings, freedoms_of
 from ..core.readable import Readable
 from ..rotors import Coupling, LayeredElement, ShaftRotor, SkewedCollar
-from ..rotors.mounted import Bearings
 from ..rotors.rod_elements import Chain, axial_chain, torsional_chain
 from ..rotors.shaft_elements import ShaftPiece
 from ..rotors.structure import dense_matrix, freedom_rows

@@ -12,21 +12,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
+from ..core import port
 from ..core.errors import InputError, brief, require_finite, require_kind, require_number, require_positive
 from ..core.frames import ResultTable
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.port import (
-    Reaction,
-    clearance_of,
-    inertial,
-    largest_eccentricity_ratio,
-    orbit_mass,
-    require_reaction,
-    require_turning,
-    static_force,
-    static_slopes,
-)
 from ..core.readable import Drawable, Item, Readable, items_of, table_of
 from ..core.results import CircularOrbit, InertialCoefficients, Trajectory
 from ..core.signals import Signal, signals_of
@@ -153,7 +143,7 @@ class SynchronousOrbits(Drawable):
 @one_blas_thread
 @arguments
 def synchronous_orbits(
-    rotor: RigidRotor, reaction: Reaction, unbalances: ArrayLike | None = None
+    rotor: RigidRotor, reaction: port.Reaction, unbalances: ArrayLike | None = None
 ) -> SynchronousOrbits:
     """Return every synchronous circular orbit of an unbalanced rigid rotor, stable or not.
 
@@ -227,7 +217,7 @@ class OrbitsOverSpeed(Drawable):
 
 @one_blas_thread
 @arguments
-def orbits_over_speed(rotor: RigidRotor, reaction: Reaction, speeds: ArrayLike) -> OrbitsOverSpeed:
+def orbits_over_speed(rotor: RigidRotor, reaction: port.Reaction, speeds: ArrayLike) -> OrbitsOverSpeed:
     """Return the orbits of a rotor with its own unbalance at each of the speeds [rad/s]."""
     values = np.atleast_1d(require_finite("speeds", speeds))
     found = (synchronous_orbits(replace(rotor, speed=float(speed)), reaction) for speed in values)
@@ -351,7 +341,7 @@ class OrbitSlope(NamedTuple):
 def orbit_rotor(rotor: RigidRotor, reaction: Any) -> OrbitRotor:
     """Return the constants of a rotor whose orbits are circular; raise InputError where they are not."""
     require_kind("rotor", rotor, RigidRotor, "a RigidRotor")
-    require_reaction("reaction", reaction, heavy=True, planar=True)
+    port.require_reaction("reaction", reaction, heavy=True, planar=True)
     speeds = set(rotor.profile.speeds)
     if len(speeds) != 1 or 0.0 in speeds:
         raise InputError(f"speed must be constant and not zero for synchronous orbits, got {rotor.speed!r}")
@@ -363,7 +353,7 @@ def orbit_rotor(rotor: RigidRotor, reaction: Any) -> OrbitRotor:
     # A film that does not depend on direction answers the mirrored motion with the mirrored force.
     system = damped_orbit(rotor, reaction)
     _require_isotropy(system)
-    require_turning(reaction, rotor)
+    port.require_turning(reaction, rotor)
     return system
 
 
@@ -375,7 +365,7 @@ def orbit_points(system: OrbitRotor, eccentricity_ratio: Array) -> tuple[np.ndar
     position, velocity = _motion(system, eccentricity_ratio)
     speed = np.full(eccentricity_ratio.shape, system.speed)
     radial, tangential = system.reaction.force(position, velocity, speed)
-    heavy = inertial(system.reaction)
+    heavy = port.inertial(system.reaction)
     if heavy is not None:
         swung = system.speed**2 * position[0] * heavy.mass(position, velocity, speed)[:, 0]
         radial, tangential = radial + swung[0], tangential + swung[1]
@@ -389,7 +379,7 @@ def orbit_slope(system: OrbitRotor, eccentricity_ratio: Array) -> OrbitSlope:
     speed = np.full(eccentricity_ratio.shape, system.speed)
     film = system.reaction.jacobian(position, velocity, speed)
     along = film[:, 0] + system.speed * film[:, 3]
-    added = orbit_mass(system.reaction, position, velocity, system.speed)
+    added = port.orbit_mass(system.reaction, position, velocity, system.speed)
     if added is not None:
         along = along - added[1][:, 0] - system.speed * added[1][:, 3] + system.speed**2 * added[0][:, 0]
     pull_slope = -(system.mass * system.speed**2 + along[0]) + 1j * along[1]
@@ -429,7 +419,7 @@ def _require_isotropy(system: OrbitRotor) -> None:
 
 def damped_orbit(rotor: RigidRotor, reaction: Any) -> OrbitRotor:
     """Return the constants of a rotor on a film that is known to be isotropic, at its first speed."""
-    largest_ratio = largest_eccentricity_ratio(reaction)
+    largest_ratio = port.largest_eccentricity_ratio(reaction)
     return OrbitRotor(rotor.mass, abs(rotor.profile.speeds[0]), reaction.clearance, reaction, largest_ratio)
 
 
@@ -587,7 +577,7 @@ class BistableMap(Drawable):
 
 @one_blas_thread
 @arguments
-def bistable_map(damper: Reaction, squeeze_numbers: ArrayLike, spring_ratios: ArrayLike) -> BistableMap:
+def bistable_map(damper: port.Reaction, squeeze_numbers: ArrayLike, spring_ratios: ArrayLike) -> BistableMap:
     """Return the squeeze numbers and spring ratios at which the unbalance response is bistable.
 
     Parameters
@@ -620,7 +610,7 @@ def bistable_map(damper: Reaction, squeeze_numbers: ArrayLike, spring_ratios: Ar
 
 @one_blas_thread
 @arguments
-def bistability_limit(damper: Reaction, spring_ratio: float) -> float:
+def bistability_limit(damper: port.Reaction, spring_ratio: float) -> float:
     """Return the squeeze number Bs/Omega above which the response to an unbalance has no fold."""
     require_number("spring_ratio", spring_ratio)
     response = _Response(damper)
@@ -711,7 +701,7 @@ class OrbitCoefficients(Readable):
 
 @one_blas_thread
 @arguments
-def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: float) -> OrbitCoefficients:
+def orbit_coefficients(reaction: port.Reaction, eccentricity_ratio: float, speed: float) -> OrbitCoefficients:
     """Return the equivalent coefficients of a film on a synchronous circular orbit.
 
     With fluid inertia the stiffness includes the term -mass speed^2. A linear code may use these coefficients
@@ -734,13 +724,13 @@ def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: flo
     FilmContactError
         If the orbit is as wide as the clearance.
     """
-    require_reaction("reaction", reaction, heavy=True, planar=True)
+    port.require_reaction("reaction", reaction, heavy=True, planar=True)
     require_positive("eccentricity_ratio", eccentricity_ratio)
     if require_number("speed", speed) == 0.0:
         raise InputError(f"speed must not be zero on an orbit, got {speed!r}")
-    radius = eccentricity_ratio * clearance_of(reaction)
-    radial, tangential = static_force(reaction, [radius, 0.0], [0.0, speed * radius], speed)
-    heavy = inertial(reaction)
+    radius = eccentricity_ratio * port.clearance_of(reaction)
+    radial, tangential = port.static_force(reaction, [radius, 0.0], [0.0, speed * radius], speed)
+    heavy = port.inertial(reaction)
     if heavy is not None:
         heavy.require_range(speed)
         swung = heavy.mass([radius, 0.0], [0.0, speed * radius], speed)[:, 0] * speed**2 * radius
@@ -756,7 +746,7 @@ def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: flo
 @one_blas_thread
 @arguments
 def small_motion_transmissibility(
-    rotor: RigidRotor, reaction: Reaction, name: str | None = None
+    rotor: RigidRotor, reaction: port.Reaction, name: str | None = None
 ) -> control.TransferFunction:
     """Return the force on the housing per force on the rotor in small motion about the center.
 
@@ -797,7 +787,7 @@ def small_motion_transmissibility(
 @one_blas_thread
 @arguments
 def orbit_system(
-    rotor: RigidRotor, reaction: Reaction, orbit: CircularOrbit, name: str | None = None
+    rotor: RigidRotor, reaction: port.Reaction, orbit: CircularOrbit, name: str | None = None
 ) -> control.StateSpace:
     """Return the small motion about a circular orbit, in radial and tangential axes that turn with it.
 
@@ -817,16 +807,16 @@ def orbit_system(
         their rates: change of the position in turning axes [m, m/s]; housing_radial, housing_tangential:
         change of the force on the housing [N]. Its poles are the Floquet exponents of the orbit.
     """
-    require_reaction("reaction", reaction, heavy=True, planar=True)
-    radius = orbit.eccentricity_ratio * clearance_of(reaction)
+    port.require_reaction("reaction", reaction, heavy=True, planar=True)
+    radius = orbit.eccentricity_ratio * port.clearance_of(reaction)
     position, velocity = np.array([radius, 0.0]), np.array([0.0, orbit.speed * radius])
-    film = static_slopes(reaction, position, velocity, orbit.speed)
-    added = orbit_mass(reaction, position, velocity, orbit.speed)
+    film = port.static_slopes(reaction, position, velocity, orbit.speed)
+    added = port.orbit_mass(reaction, position, velocity, orbit.speed)
     matrices = rotating_linearization(rotor.mass, orbit.speed, film, added)
     nominal = reaction.outputs[0].nominal
     inputs = signals_of(*((f"force_{axis}", "N", nominal, f"{axis} force on the rotor") for axis in TURNING))
     housing = ((f"housing_{axis}", "N", nominal, f"{axis} force on the housing") for axis in TURNING)
-    states = _turning_states(clearance_of(reaction), abs(orbit.speed))
+    states = _turning_states(port.clearance_of(reaction), abs(orbit.speed))
     return state_space(matrices, inputs, (*states, *signals_of(*housing)), states, name)
 
 

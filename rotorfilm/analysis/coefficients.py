@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..core import port
 from ..core.dynamic_stiffness import (
     InertialStiffness,
     coefficients_of,
@@ -28,21 +29,6 @@ from ..core.errors import (
 )
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.port import (
-    Complex,
-    Reaction,
-    at_balanced_temperature,
-    freedoms_of,
-    in_time,
-    inertial,
-    is_warming,
-    mass_of,
-    require_place,
-    require_range,
-    require_reaction,
-    static_slopes,
-    warn_of_flow,
-)
 from ..core.readable import Drawable
 from ..core.results import Coefficients, Equilibrium, InertialCoefficients
 from ..core.sources import offered
@@ -52,7 +38,7 @@ from .threads import one_blas_thread
 
 @arguments
 def coefficients(
-    reaction: Reaction, position: ArrayLike, speed: float, frequency: float | None = None
+    reaction: port.Reaction, position: ArrayLike, speed: float, frequency: float | None = None
 ) -> Coefficients:
     """Return K = -dF/d(position) and C = -dF/d(velocity) of a film, for a journal at rest.
 
@@ -89,12 +75,12 @@ def coefficients(
     ValidityWarning
         If the film is not laminar, or its oil is beyond its viscosity law; see `equilibrium`.
     """
-    require_reaction("reaction", reaction, heavy=True)
-    position, speed = require_place(reaction, position), require_number("speed", speed)
-    film = at_balanced_temperature(reaction, position, speed)
-    warn_of_flow(film, speed)
+    port.require_reaction("reaction", reaction, heavy=True)
+    position, speed = port.require_place(reaction, position), require_number("speed", speed)
+    film = port.at_balanced_temperature(reaction, position, speed)
+    port.warn_of_flow(film, speed)
     if states_rest(film):
-        require_range(film, speed if frequency is None else frequency)
+        port.require_range(film, speed if frequency is None else frequency)
     return film_coefficients(film if frequency is None else reaction, position, speed, frequency)
 
 
@@ -102,24 +88,26 @@ def film_coefficients(
     reaction: Any, position: ArrayLike, speed: float, frequency: float | None = None
 ) -> Coefficients:
     """Return `coefficients` where an equilibrium has warned of the flow of the film already."""
-    position = require_place(reaction, position)
+    position = port.require_place(reaction, position)
     if states_rest(reaction) or (frequency is not None and drifts(reaction)):
         film = (
-            at_balanced_temperature(reaction, position, speed) if states_rest(reaction) else in_time(reaction)
+            port.at_balanced_temperature(reaction, position, speed)
+            if states_rest(reaction)
+            else port.in_time(reaction)
         )
         motion = small_motion(film, position, speed)
-        if inertial(film) is not None:
-            motion = InertialStiffness(motion, mass_of(film, position, np.zeros_like(position), speed))
-        return coefficients_of(motion, position, speed, frequency, freedoms_of(film))
-    return _held(at_balanced_temperature(reaction, position, speed), position, speed)
+        if port.inertial(film) is not None:
+            motion = InertialStiffness(motion, port.mass_of(film, position, np.zeros_like(position), speed))
+        return coefficients_of(motion, position, speed, frequency, port.freedoms_of(film))
+    return _held(port.at_balanced_temperature(reaction, position, speed), position, speed)
 
 
 def coefficients_at(reaction: Any, rests: Sequence[Equilibrium]) -> list[Coefficients]:
     """Return `film_coefficients` at each of many equilibria: for a static force without heat all at once."""
-    if states_rest(reaction) or is_warming(reaction) or inertial(reaction) or len(rests) < 2:
+    if states_rest(reaction) or port.is_warming(reaction) or port.inertial(reaction) or len(rests) < 2:
         return [film_coefficients(reaction, at.position, at.speed) for at in rests]
-    positions, n = np.array([at.position for at in rests]).T, len(freedoms_of(reaction))
-    slopes = static_slopes(
+    positions, n = np.array([at.position for at in rests]).T, len(port.freedoms_of(reaction))
+    slopes = port.static_slopes(
         reaction, positions, np.zeros_like(positions), np.array([at.speed for at in rests])
     )
     return [
@@ -128,7 +116,7 @@ def coefficients_at(reaction: Any, rests: Sequence[Equilibrium]) -> list[Coeffic
             damping=-own[:, n : 2 * n],
             position=at.position,
             speed=at.speed,
-            freedoms=freedoms_of(reaction),
+            freedoms=port.freedoms_of(reaction),
         )
         for own, at in zip(np.moveaxis(slopes, -1, 0), rests, strict=True)
     ]
@@ -140,15 +128,15 @@ def _held(film: Any, position: Array, speed: float) -> Coefficients:
     if states_rest(film):
         slopes = rest_linearization(film, position, speed).D
     else:
-        slopes = static_slopes(film, position, still, speed)
+        slopes = port.static_slopes(film, position, still, speed)
     found = Coefficients(
         stiffness=-slopes[:, :n],
         damping=-slopes[:, n : 2 * n],
         position=position,
         speed=speed,
-        freedoms=freedoms_of(film),
+        freedoms=port.freedoms_of(film),
     )
-    heavy = inertial(film)
+    heavy = port.inertial(film)
     return (
         found
         if heavy is None
@@ -157,7 +145,7 @@ def _held(film: Any, position: Array, speed: float) -> Coefficients:
 
 
 @arguments
-def frozen_coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coefficients:
+def frozen_coefficients(reaction: port.Reaction, position: ArrayLike, speed: float) -> Coefficients:
     """Return K and C of a reaction with its states held at their equilibrium: the limit of very fast motion.
 
     Parameters
@@ -170,13 +158,13 @@ def frozen_coefficients(reaction: Reaction, position: ArrayLike, speed: float) -
     InputError, FilmContactError, UndefinedDerivativeError
         As in `coefficients`; InputError too for a film that steps, whose states are its own.
     """
-    require_reaction("reaction", reaction, heavy=True, over_time=True)
-    position, speed = require_place(reaction, position), require_number("speed", speed)
-    return _held(at_balanced_temperature(reaction, position, speed), position, speed)
+    port.require_reaction("reaction", reaction, heavy=True, over_time=True)
+    position, speed = port.require_place(reaction, position), require_number("speed", speed)
+    return _held(port.at_balanced_temperature(reaction, position, speed), position, speed)
 
 
 @arguments
-def quasi_static_coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coefficients:
+def quasi_static_coefficients(reaction: port.Reaction, position: ArrayLike, speed: float) -> Coefficients:
     """Return K(0) and dK/ds(0) of a reaction whose states follow the shaft: the limit of slow motion.
 
     Parameters
@@ -193,7 +181,7 @@ def quasi_static_coefficients(reaction: Reaction, position: ArrayLike, speed: fl
 
 
 @arguments
-def dynamic_stiffness(reaction: Reaction, at: Equilibrium, s: complex) -> Complex:
+def dynamic_stiffness(reaction: port.Reaction, at: Equilibrium, s: complex) -> port.Complex:
     """Return K(s) + s C(s) + s^2 M of a reaction about an equilibrium, with its states eliminated.
 
     Parameters
@@ -221,20 +209,24 @@ def dynamic_stiffness(reaction: Reaction, at: Equilibrium, s: complex) -> Comple
     ValidityWarning
         If the motion is faster than the model of the reaction is meant for.
     """
-    require_reaction("reaction", reaction, heavy=True)
+    port.require_reaction("reaction", reaction, heavy=True)
     require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")
     if not isinstance(s, Number) or not np.isfinite(s):
         raise InputError(f"s must be a finite number, got {s!r}")
-    place, exponent = require_place(reaction, at.position, "at.position"), complex(s)
-    film = at_balanced_temperature(reaction, place, at.speed) if states_rest(reaction) else in_time(reaction)
+    place, exponent = port.require_place(reaction, at.position, "at.position"), complex(s)
+    film = (
+        port.at_balanced_temperature(reaction, place, at.speed)
+        if states_rest(reaction)
+        else port.in_time(reaction)
+    )
     if states_rest(film):
-        require_range(film, abs(exponent))
-    mass = mass_of(reaction, place, np.zeros_like(place), at.speed)
+        port.require_range(film, abs(exponent))
+    mass = port.mass_of(reaction, place, np.zeros_like(place), at.speed)
     return np.asarray(small_motion(film, place, at.speed).stiffness(exponent) + exponent**2 * mass)
 
 
 @arguments
-def coefficient_table(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) -> Any:
+def coefficient_table(reaction: port.Reaction, load: ArrayLike, speeds: ArrayLike) -> Any:
     """Return K and C of a film at its equilibria under a load, over speed, as a `TabulatedBearing`.
 
     The result also has the eccentricity, attitude angle, minimum film, temperature, power loss and flow of
@@ -256,7 +248,7 @@ def coefficient_table(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) ->
     EquilibriumError
         If there is no equilibrium at one of the speeds.
     """
-    require_reaction("reaction", reaction)
+    port.require_reaction("reaction", reaction)
     grid = require_finite("speeds", speeds)
     if grid.ndim != 1 or not grid.size:
         raise InputError(f"speeds must be a list of rising numbers, got {speeds!r}")
@@ -266,7 +258,7 @@ def coefficient_table(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) ->
         speeds=grid,
         stiffness=np.array([point.stiffness for point in points]),
         damping=np.array([point.damping for point in points]),
-        freedoms=freedoms_of(reaction),
+        freedoms=port.freedoms_of(reaction),
     ).found_at(rests)
 
 
@@ -315,7 +307,7 @@ class VariableCompliance(Drawable):
 @one_blas_thread
 @arguments
 def variable_compliance(
-    bearing: Reaction, load: tuple[float, float], speed: float = 0.0, *, samples: int = SAMPLES
+    bearing: port.Reaction, load: tuple[float, float], speed: float = 0.0, *, samples: int = SAMPLES
 ) -> VariableCompliance:
     """Return the equilibrium and the stiffness of a shaft at each cage angle over one ball pitch.
 

@@ -35,23 +35,9 @@ from ..native.library import loops
 from ..native.structs import constant, structure
 from ..rotors import MountedRotor, SpeedProfile
 from ..rotors.structure import prefixed
+from . import compiled_rotor
 from .bearing_forces import bearing_forces
-from .compiled_rotor import (
-    GOOD_CONDITION,
-    GOOD_SIZE,
-    Complex,
-    JournalFilms,
-    ModalRotor,
-    NeglectedMotion,
-    Parts,
-    journal_rows,
-    modal_rotor,
-    modes,
-    spin_rates,
-    starts,
-    state_matrices,
-    take_apart,
-)
+from .compiled_rotor import modes, starts
 from .force_calls import of_station, raise_foreign, warn_beyond, warn_of_thin_films
 from .threads import one_blas_thread
 
@@ -146,7 +132,7 @@ def simulate_rotor(
 
 
 def _verified(
-    starts: Iterator[tuple[MountedRotor, Array, NeglectedMotion | None]],
+    starts: Iterator[tuple[MountedRotor, Array, compiled_rotor.NeglectedMotion | None]],
     run_of: Callable[..., tuple[Trajectory, Array, Exception | None]],
     grid: Array,
     duration: float,
@@ -157,7 +143,7 @@ def _verified(
     dense = np.union1d(grid, np.linspace(0.0, duration, CHECKED))
     work: Counter[str] = Counter()
     for mounted, state, neglected in starts:
-        parts = take_apart(mounted, over_time=True)
+        parts = compiled_rotor.take_apart(mounted, over_time=True)
         run, states, failure = run_of(mounted, state, parts, grid if neglected is None else dense)
         work.update(run.work)
         if neglected is None or neglected.largest(run, states) <= condensation:
@@ -178,7 +164,7 @@ def _at(run: Trajectory, grid: Array) -> Trajectory:
 def _run(
     mounted: MountedRotor,
     state: Array,
-    parts: Parts,
+    parts: compiled_rotor.Parts,
     grid: Array,
     *,
     duration: float,
@@ -188,7 +174,7 @@ def _run(
     """Return a run, the states at its times, and what ended it early."""
     if (exact := linear_states(parts, state, grid)) is not None:
         return _trajectory(mounted, grid, exact, parts, dict.fromkeys(_COUNTERS, 0)), exact, None
-    rate = parts.nominal_speed or rate_of(modal_rotor(parts, 0.0))
+    rate = parts.nominal_speed or rate_of(compiled_rotor.modal_rotor(parts, 0.0))
     longest = min(max_step, duration, LONGEST_TURN * 2.0 * np.pi / rate)
     run = RunUp(parts, state, duration, partial(March, rtol=rtol, longest=longest, duration=duration))
     kept: list[Array] = [np.zeros((0, len(state))), *([state[None]] if grid.size and grid[0] == 0.0 else [])]
@@ -206,7 +192,7 @@ def _run(
 
 
 def _trajectory(
-    mounted: MountedRotor, grid: Array, states: Array, parts: Parts, work: dict[str, int]
+    mounted: MountedRotor, grid: Array, states: Array, parts: compiled_rotor.Parts, work: dict[str, int]
 ) -> Trajectory:
     time = grid[: len(states)]
     rotor = mounted.bare
@@ -229,7 +215,7 @@ def _trajectory(
 # A rotor on springs and dampers at constant speed: its motion is known at any time without a step.
 
 
-def linear_states(parts: Parts, state: Array, grid: Array) -> Array | None:
+def linear_states(parts: compiled_rotor.Parts, state: Array, grid: Array) -> Array | None:
     """Return the states at the times of a grid, shape (n, 2 N), of a rotor whose equations are linear.
 
     With A V = V Lambda, x(t) = x0 + Re(p exp(i w t)) + Re(V exp(Lambda t) c), x0 at rest, p the response to
@@ -241,15 +227,15 @@ def linear_states(parts: Parts, state: Array, grid: Array) -> Array | None:
     if not steady or not all(is_constant(one) or parts.is_linear(one) for one in parts.bearings):
         return None
     speed, none = parts.speed, np.zeros(2)
-    A, B, weight = state_matrices(parts, speed)
+    A, B, weight = compiled_rotor.state_matrices(parts, speed)
     slopes = [
         np.zeros((2, 4)) if parts.is_linear(bearing) else static_slopes(bearing, none, none, speed)[:, :4]
         for bearing in parts.bearings
     ]
-    A = A + B[:, :-2] @ (block_diag(*slopes) @ journal_rows(parts))
+    A = A + B[:, :-2] @ (block_diag(*slopes) @ compiled_rotor.journal_rows(parts))
     turn = abs(speed)
     values, shapes, inverse, condition = modes(A, parts.scale(turn or 1.0))
-    if not condition < GOOD_CONDITION * max(1.0, len(A) / GOOD_SIZE) ** 2:
+    if not condition < compiled_rotor.GOOD_CONDITION * max(1.0, len(A) / compiled_rotor.GOOD_SIZE) ** 2:
         return None
     turning = B[:, -2:] @ (speed**2 * np.array([1.0, -1.0j * np.sign(speed)]))
     try:
@@ -316,13 +302,13 @@ class ModalArrays(NamedTuple):
         These accelerations per force at the same moment; None without.
     """
 
-    values: Complex
-    push: Complex
-    sense: Complex
+    values: compiled_rotor.Complex
+    push: compiled_rotor.Complex
+    sense: compiled_rotor.Complex
     direct: Array | None = None
 
     @classmethod
-    def of(cls, modal: ModalRotor) -> ModalArrays:
+    def of(cls, modal: compiled_rotor.ModalRotor) -> ModalArrays:
         """Return those of a rotor."""
         sense, direct = modal.sense, None
         if modal.is_heavy:
@@ -364,10 +350,10 @@ class StepTable(NamedTuple):
     move: Array
     gain: Array
     defect: Array
-    keep: Complex
+    keep: compiled_rotor.Complex
     forced: Array
-    turn: Complex | None
-    weights: Complex | None
+    turn: compiled_rotor.Complex | None
+    weights: compiled_rotor.Complex | None
 
     @classmethod
     def unfilled(cls, rotor: ModalArrays, stages: int, *, spins: bool = False) -> StepTable:
@@ -461,8 +447,8 @@ class March:
     def __init__(
         self,
         *,
-        modal: ModalRotor,
-        state: Complex,
+        modal: compiled_rotor.ModalRotor,
+        state: compiled_rotor.Complex,
         rtol: float,
         longest: float,
         duration: float,
@@ -471,10 +457,10 @@ class March:
     ) -> None:
         self.modal, self.state = modal, np.array(state, dtype=complex)
         self._duration = duration
-        self._kept = ModalArrays.of(modal), radau_scheme(stages), JournalFilms.of_rotor(modal)
+        self._kept = ModalArrays.of(modal), radau_scheme(stages), compiled_rotor.JournalFilms.of_rotor(modal)
         self._numbers = *profile_rows(modal.parts.profile), journal_scales(modal)
         spins = speed is not None and modal.parts.turns and set(modal.parts.profile.speeds) != {speed}
-        self._spin = spin_rates(modal) if spins else None
+        self._spin = compiled_rotor.spin_rates(modal) if spins else None
         excited = modal.parts.excited
         self._excited = None if excited is None else np.ascontiguousarray(excited)
         slots, steps = constant("RF_SLOTS"), constant("RF_STEPS")
@@ -521,12 +507,12 @@ class March:
         """Whether a film was asked beyond its map."""
         return bool(self._struct.left_map)
 
-    def resume(self, time: float, state: Complex, step: int) -> None:
+    def resume(self, time: float, state: compiled_rotor.Complex, step: int) -> None:
         """Go on at a time [s] with a state in modal coordinates, and the step of another march if not -1."""
         self._struct.time, self.state[:] = time, state
         self._struct.step = step if step >= 0 else self._struct.step
 
-    def to(self, stop: float, grid: Array) -> Complex:
+    def to(self, stop: float, grid: Array) -> compiled_rotor.Complex:
         """Integrate to a time and return the modal coordinates at the times of `grid` after the last stop.
 
         Raises
@@ -547,7 +533,7 @@ class March:
             raise self._failure(end, out[: place.value])
         return out
 
-    def _failure(self, end: End, kept: Complex) -> ContactError | ConvergenceError:
+    def _failure(self, end: End, kept: compiled_rotor.Complex) -> ContactError | ConvergenceError:
         at = f"at t = {self.time:.9g} s"
         if end == End.WALL:
             return ContactError(f"journal{of_station(self._closest())} reached the wall {at}", kept)
@@ -578,12 +564,12 @@ def excitation_struct(rows: Array | None) -> Any:
     return made(rows.shape[1], len(rows) - 1, rows.ctypes.data, rows[1:].ctypes.data)
 
 
-def rate_of(modal: ModalRotor) -> float:
+def rate_of(modal: compiled_rotor.ModalRotor) -> float:
     """Return the largest angular speed [rad/s], or a slow mode's where the rotor does not turn."""
     return modal.parts.nominal_speed or float(np.abs(modal.values).min())
 
 
-def journal_scales(modal: ModalRotor) -> Array:
+def journal_scales(modal: compiled_rotor.ModalRotor) -> Array:
     """Return what makes x, y, vx, vy of each journal dimensionless, and 0 for accelerations and a crack."""
     rate, lengths = rate_of(modal), modal.parts.lengths.copy()
     lengths[len(modal.parts.names) * modal.parts.points :] = math.inf
@@ -598,7 +584,9 @@ BANDS = 12
 """Bands of speed between rest and the largest speed: in each the modes are those of its middle."""
 
 
-def stretches(parts: Parts, duration: float, bands: int = BANDS) -> Iterator[tuple[float, float]]:
+def stretches(
+    parts: compiled_rotor.Parts, duration: float, bands: int = BANDS
+) -> Iterator[tuple[float, float]]:
     """Yield the parts of a run: between kinks of the speed, each within one band of it.
 
     A part is told by its end [s] and the speed of the modes that it is integrated in [rad/s].
@@ -635,7 +623,9 @@ class RunUp:
         `March` with its error and step, of `modal`, `state` and `speed`.
     """
 
-    def __init__(self, parts: Parts, state: Array, duration: float, march: Callable[..., March]) -> None:
+    def __init__(
+        self, parts: compiled_rotor.Parts, state: Array, duration: float, march: Callable[..., March]
+    ) -> None:
         self.parts, self._state, self._duration, self._begun = parts, state, duration, march
         self._marches: dict[float, March] = {}
         self._time, self._step = 0.0, -1
@@ -678,7 +668,7 @@ class RunUp:
 
     def _march(self, speed: float) -> March:
         if speed not in self._marches:
-            modal = modal_rotor(self.parts, speed)
+            modal = compiled_rotor.modal_rotor(self.parts, speed)
             self._marches[speed] = self._begun(modal=modal, state=modal.modal(self._state), speed=speed)
         return self._marches[speed]
 

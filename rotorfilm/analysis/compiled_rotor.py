@@ -19,19 +19,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.linalg import block_diag
 
+from ..core import port
 from ..core.errors import (
     ConvergenceError,
     InputError,
 )
 from ..core.model import Array, Dynamic, Linearization
-from ..core.port import (
-    compiled_force,
-    freedoms_of,
-    inertial,
-    linear_system,
-    mass_of,
-    require_reaction,
-)
 from ..core.results import Trajectory
 from ..core.signals import PLANAR
 from ..native.film_call import MASSLESS, FilmCall
@@ -271,7 +264,7 @@ def point_forces(parts: Parts, run: Trajectory) -> list[Array]:
     """
     forces: list[Array] = []
     for name, bearing in zip(parts.names, parts.bearings, strict=True):
-        count = len(freedoms_of(bearing))
+        count = len(port.freedoms_of(bearing))
         found = [run[station_name(name, signal.name)] for signal in bearing.outputs[:count]]
         if feels_tilt(bearing) and parts.points > 1:
             forces.extend(np.linalg.solve(point_rows(bearing).T, np.stack(found)))
@@ -309,11 +302,11 @@ def take_apart(mounted: MountedRotor, *, over_time: bool = False) -> Parts:
         )
     tilted = over_time and any(feels_tilt(bearing) for bearing in bearings)
     cracked = [CrackForce(bare)] if isinstance(bare, CrackedRotor) else []
-    if tilted and (cracked or any(inertial(bearing) for bearing in bearings)):
+    if tilted and (cracked or any(port.inertial(bearing) for bearing in bearings)):
         raise InputError("rotor must have no crack and no added mass beside a journal that feels its tilt")
     for name in names:
         planar = not (tilted and feels_tilt(found[name]))
-        require_reaction(f"bearings[{name!r}]", found[name], heavy=True, planar=planar)
+        port.require_reaction(f"bearings[{name!r}]", found[name], heavy=True, planar=planar)
     rows = [_rows(structure, names, bearings, tilted=tilted), *(one.rotor.weakness[0] for one in cracked)]
     every = *bearings, *cracked
     parts = Parts(
@@ -331,10 +324,10 @@ def _linear_reactions(
     """Return bearings that become part of the linear equations, in the order of their states."""
     every = []
     for name, bearing in bearings.items():
-        system = linear_system(bearing, profile.speeds)
+        system = port.linear_system(bearing, profile.speeds)
         if system is not None:
             still = np.zeros(2)
-            mass = mass_of(bearing, still, still, profile.speeds[0])
+            mass = port.mass_of(bearing, still, still, profile.speeds[0])
             every.append(StationEquations(name, bearing, system, freedom_rows(structure, name), mass))
     return tuple(every)
 
@@ -629,18 +622,20 @@ def takes_forces(rotor: Dynamic, bearings: Iterable[Any]) -> bool:
     if not is_linear(rotor, over_time=True):
         return False
     bare, cracked = _bare(rotor)
-    still = all(not film.states or linear_system(film, bare.profile.speeds) is not None for film in every)
-    planar = all(freedoms_of(film) == PLANAR or feels_tilt(film) for film in every)
+    still = all(
+        not film.states or port.linear_system(film, bare.profile.speeds) is not None for film in every
+    )
+    planar = all(port.freedoms_of(film) == PLANAR or feels_tilt(film) for film in every)
     tilted = any(map(feels_tilt, every))
-    heavy = any(inertial(film) is not None for film in every)
+    heavy = any(port.inertial(film) is not None for film in every)
     return still and planar and not (tilted and (cracked or heavy))
 
 
 def _is_compiled(bearing: Any) -> bool:
-    if freedoms_of(bearing) != PLANAR:
+    if port.freedoms_of(bearing) != PLANAR:
         return False
-    fast = hasattr(bearing, "linear_system") or inertial(bearing) is not None
-    return fast or compiled_force(bearing) is not None
+    fast = hasattr(bearing, "linear_system") or port.inertial(bearing) is not None
+    return fast or port.compiled_force(bearing) is not None
 
 
 def _bare(rotor: Dynamic) -> tuple[Any, bool]:

@@ -20,36 +20,8 @@ from ..core.port import Bearings, freedoms_of
 from ..core.results import added_mass
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, freedom_rows, in_planes
-from .modal_reduction import (
-    FEW,
-    MARGIN,
-    TOLERANCE,
-    ArrayWithOperations,
-    Condensed,
-    counted,
-    counted_array,
-    exact_structure,
-    models,
-    negative_count,
-    tally,
-    usual_frequency,
-)
+from . import modal_reduction, rotor_matrices
 from .rotor_equilibrium import RotorEquilibrium, rest
-from .rotor_matrices import (
-    CONVERGED,
-    PATIENCE,
-    ROUNDED,
-    FullRotorModel,
-    SecondOrder,
-    dynamics,
-    frequency_dependent_films,
-    inverse_steps,
-    motion_near,
-    rest_near,
-    second_order,
-    small_motion,
-    whirl_errors,
-)
 from .threads import one_blas_thread
 
 REACH = 1.5
@@ -112,8 +84,8 @@ class _Search:
 
     def __init__(self, rotor: FlexibleRotor, bearings: Bearings, end: float, top: float) -> None:
         self.bearings, self.end, self.top = bearings, end, top
-        self.exact = exact_structure(rotor)
-        self.models = models(rotor, REACH * max(top, 1.0), FEW)
+        self.exact = modal_reduction.exact_structure(rotor)
+        self.models = modal_reduction.models(rotor, REACH * max(top, 1.0), modal_reduction.FEW)
         self.unproven: list[tuple[float, float]] = []
         self.refine()
 
@@ -228,7 +200,7 @@ class _Search:
         told = span.candidates()
         if told is None:
             return None
-        if told[1] > TOLERANCE:
+        if told[1] > modal_reduction.TOLERANCE:
             raise _Unproven
         try:
             found = [self._crossing(span, one) for one in told[0]]
@@ -258,14 +230,21 @@ class _Search:
         forward = -1.0 if span.rests[1].speed < 0.0 else 1.0
         for count in range(_STEPS):
             at = rest(self.model.structure, self.bearings, forward * turn, span.rests)
-            system = motion_near(structure, at, turn)(value)
+            system = rotor_matrices.motion_near(structure, at, turn)(value)
             before, shift = value, value * (1.0 + 1e-13)
-            value, right, left = inverse_steps(system, shift, right, left, 1 if count else 2)[-1]
+            value, right, left = rotor_matrices.inverse_steps(system, shift, right, left, 1 if count else 2)[
+                -1
+            ]
             lead = value.imag - turn
-            settled = abs(value - before) <= max(CONVERGED, NEAR) * abs(value) or count >= PATIENCE
-            if settled and abs(lead) <= (NEAR if count < PATIENCE else ROUNDED) * abs(value):
+            settled = (
+                abs(value - before) <= max(rotor_matrices.CONVERGED, NEAR) * abs(value)
+                or count >= rotor_matrices.PATIENCE
+            )
+            if settled and abs(lead) <= (
+                NEAR if count < rotor_matrices.PATIENCE else rotor_matrices.ROUNDED
+            ) * abs(value):
                 return Crossing(turn, value, right, left)
-            slope = dynamics(system, value)[1]
+            slope = rotor_matrices.dynamics(system, value)[1]
             rate = complex(
                 -(left.conj() @ span.slope(structure, turn, value, right)) / (left.conj() @ (slope @ right))
             )
@@ -326,7 +305,7 @@ class SpannedModes:
         Rests at the ends and in the middle, by rising |speed|.
     """
 
-    model: Condensed
+    model: modal_reduction.Condensed
     rests: Rests
 
     @property
@@ -340,7 +319,7 @@ class SpannedModes:
         return 0.5 * abs(self.rests[2].speed - self.rests[0].speed)
 
     @cached_property
-    def systems(self) -> tuple[SecondOrder, ...]:
+    def systems(self) -> tuple[rotor_matrices.SecondOrder, ...]:
         """Equations of small motion at the three speeds, as synchronous motion has them, of one mass."""
         return of_one_mass([synchronous(self.model.structure, at) for at in self.rests])
 
@@ -348,11 +327,11 @@ class SpannedModes:
     def modes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Eigenvalues, shapes (n, 2 n) and left vectors (2 n, n) of motion in the middle."""
         system = self.systems[1]
-        tally("eigenproblems")
+        modal_reduction.tally("eigenproblems")
         values, vectors = eig(system.state_matrix())
         if np.abs(values).min() < FREE * self.middle:
             held = (SOFT * self.middle) ** 2 * system.mass
-            tally("eigenproblems")
+            modal_reduction.tally("eigenproblems")
             values, vectors = eig(system._replace(stiffness=system.stiffness + held).state_matrix())
         n = len(system.mass)
         energy = np.sum(vectors[:n].conj() * (system.mass @ vectors[:n]), axis=0).real
@@ -380,7 +359,7 @@ class SpannedModes:
         """
         T, line = self.changing, self.middle + np.array([-self.half, self.half])
         # With them K(s) is that of slow growth and decay only.
-        frequency_dependent = bool(frequency_dependent_films(self.rests[1]))
+        frequency_dependent = bool(rotor_matrices.frequency_dependent_films(self.rests[1]))
         ways = branches_on_line(T, line, SWINGS * self.middle if frequency_dependent else np.inf)
         if ways is None:
             return None
@@ -408,10 +387,10 @@ class SpannedModes:
         if self.model.space is None or not len(places):
             return 0.0
         values, right, left = self.modes
-        at = rest_near(self.rests[1], 1j * self.middle)  # K(s) as the eigenvalues have it
-        whole = FullRotorModel(self.model.whole, at, self.middle)
+        at = rotor_matrices.rest_near(self.rests[1], 1j * self.middle)  # K(s) as the eigenvalues have it
+        whole = rotor_matrices.FullRotorModel(self.model.whole, at, self.middle)
         ends = (self.model.lifted(side) for side in (right[:, places], left[places].conj().T))
-        return float(whirl_errors(self.model, whole, values[places], *ends).max())
+        return float(rotor_matrices.whirl_errors(self.model, whole, values[places], *ends).max())
 
     def slope(self, structure: Structure, turn: float, value: complex, right: np.ndarray) -> np.ndarray:
         """Return (dL / d|speed|) right at a speed of the step."""
@@ -460,26 +439,28 @@ class Leap(SpannedModes):
         return super().half * (self.part[1] - self.part[0])
 
     @cached_property
-    def systems(self) -> tuple[SecondOrder, ...]:
+    def systems(self) -> tuple[rotor_matrices.SecondOrder, ...]:
         """Equations of small motion at the ends and in the middle of the part, of synchronous motion."""
         first, last = (synchronous(self.model.structure, at) for at in (self.rests[0], self.rests[2]))
         shares = self.part[0], 0.5 * (self.part[0] + self.part[1]), self.part[1]
         return of_one_mass(
             [
-                SecondOrder(*(a + share * (b - a) for a, b in zip(first, last, strict=True)))
+                rotor_matrices.SecondOrder(*(a + share * (b - a) for a, b in zip(first, last, strict=True)))
                 for share in shares
             ]
         )
 
 
-def of_one_mass(systems: Sequence[SecondOrder]) -> tuple[SecondOrder, ...]:
+def of_one_mass(systems: Sequence[rotor_matrices.SecondOrder]) -> tuple[rotor_matrices.SecondOrder, ...]:
     """Return the same motions with the mass of the middle one, as what is between them is made."""
     return tuple(system.weighing(systems[1].mass) for system in systems)
 
 
-def synchronous(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
+def synchronous(structure: Structure, at: RotorEquilibrium) -> rotor_matrices.SecondOrder:
     """Return the equations of small motion near the frequency of the rotation, in all respects."""
-    return small_motion(structure, rest_near(at, 1j * abs(at.speed)), abs(at.speed))
+    return rotor_matrices.small_motion(
+        structure, rotor_matrices.rest_near(at, 1j * abs(at.speed)), abs(at.speed)
+    )
 
 
 # Undamped critical speeds over the stiffness of the bearings.
@@ -487,7 +468,9 @@ def synchronous(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
 
 @one_blas_thread
 @arguments
-def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 4) -> ArrayWithOperations:
+def critical_speed_map(
+    rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 4
+) -> modal_reduction.ArrayWithOperations:
     """Return undamped critical speeds over the stiffness of equal isotropic bearings.
 
     Parameters
@@ -518,12 +501,15 @@ def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 
     grid = require_finite("stiffness", stiffness)
     if grid.ndim != 1 or np.any(grid <= 0.0):
         raise InputError(f"stiffness must be a list of positive numbers, got {stiffness!r}")
-    with counted("eigenproblems", "factorizations") as work:
-        for model in models(rotor, usual_frequency(rotor, 0.0)):
+    with modal_reduction.counted("eigenproblems", "factorizations") as work:
+        for model in modal_reduction.models(rotor, modal_reduction.usual_frequency(rotor, 0.0)):
             found = _forward_speeds(model.structure, grid, count)
-            if model.space is None or np.nanmax(found, initial=0.0) <= model.space.cut / MARGIN:
+            if (
+                model.space is None
+                or np.nanmax(found, initial=0.0) <= model.space.cut / modal_reduction.MARGIN
+            ):
                 break
-    return counted_array(found, work)
+    return modal_reduction.counted_array(found, work)
 
 
 def _forward_speeds(s: Structure, stiffness: Array, count: int) -> Array:
@@ -540,7 +526,7 @@ def _forward_speeds(s: Structure, stiffness: Array, count: int) -> Array:
         # In units of what holds each, shapes that press on stiff bearings drown no other.
         scale = 1.0 / np.sqrt(np.where(pressed * spring > 0.0, pressed * spring + np.abs(np.diag(own)), 1.0))
         held = own * np.outer(scale, scale) + np.diag(pressed * spring * scale**2)
-        tally("eigenproblems")
+        modal_reduction.tally("eigenproblems")
         # K is positive, M - i G need not be: a thin disk has no forward critical speed of tilt
         inverse = eigh(inertia * np.outer(scale, scale), held, eigvals_only=True)[::-1]
         speeds = 1.0 / np.sqrt(inverse[inverse > 1e-12 * np.abs(inverse).max()][:count])
@@ -594,11 +580,13 @@ def require_all_undamped(
 
 def _below(structure: Structure, at: RotorEquilibrium) -> int:
     """Return how many critical speeds are below the speed of a rest."""
-    mass, _, stiffness = second_order(structure, at)
+    mass, _, stiffness = rotor_matrices.second_order(structure, at)
     forward = -1.0 if at.speed < 0.0 else 1.0
     inertia = mass - 1j * forward * structure.gyroscopic
     own = 0.5 * (stiffness + stiffness.T)
-    return negative_count(own, at.speed**2, inertia) - negative_count(own, 0.0, inertia)
+    return modal_reduction.negative_count(own, at.speed**2, inertia) - modal_reduction.negative_count(
+        own, 0.0, inertia
+    )
 
 
 # Where the eigenvalues of a matrix that changes with a parameter may go: bounds on all of them, and

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..core import port
 from ..core.dynamic_stiffness import quasi_static, states_rest
 from ..core.errors import (
     ConvergenceError,
@@ -30,26 +31,6 @@ from ..core.errors import (
 )
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.port import (
-    MOST_LEFT,
-    Reaction,
-    clearance_of,
-    compiled_force,
-    force_noise,
-    freedoms_of,
-    has_wall,
-    is_warming,
-    minimum_film,
-    prepared_tangent,
-    relative_film,
-    require_place,
-    require_reaction,
-    rest_place,
-    static_force,
-    static_slopes,
-    warn_of_flow,
-    warn_of_load,
-)
 from ..core.readable import Readable
 from ..core.results import Equilibrium
 from ..core.signals import PLANAR
@@ -76,7 +57,7 @@ _ALONG, _NEAR_WALL = 0.1, 0.02
 
 
 @arguments
-def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibrium:
+def equilibrium(reaction: port.Reaction, load: ArrayLike, speed: float) -> Equilibrium:
     """Return the position at which the film balances a static load.
 
     Parameters
@@ -118,18 +99,18 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     bearings, whose force may be zero over a range of positions, find their equilibrium themselves
     (`core.port`).
     """
-    require_reaction("reaction", reaction, heavy=True)
-    freedoms = freedoms_of(reaction)
-    load = checked_load(load) if freedoms == PLANAR else require_place(reaction, load, "load")
+    port.require_reaction("reaction", reaction, heavy=True)
+    freedoms = port.freedoms_of(reaction)
+    load = checked_load(load) if freedoms == PLANAR else port.require_place(reaction, load, "load")
     speed = require_number("speed", speed)
     found = _found(reaction, load, speed)
-    warn_of_load(reaction, load)
-    warn_of_flow(reaction, speed, found.temperature)
+    port.warn_of_load(reaction, load)
+    port.warn_of_flow(reaction, speed, found.temperature)
     return found
 
 
 @arguments
-def equilibria(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) -> tuple[Equilibrium, ...]:
+def equilibria(reaction: port.Reaction, load: ArrayLike, speeds: ArrayLike) -> tuple[Equilibrium, ...]:
     """Return the equilibria of many speeds and loads, searched in one call of the C library.
 
     Parameters
@@ -153,24 +134,24 @@ def equilibria(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) -> tuple[
     EquilibriumError
         As in `equilibrium`, for the first speed without an equilibrium.
     """
-    require_reaction("reaction", reaction, heavy=True)
+    port.require_reaction("reaction", reaction, heavy=True)
     grid, loads = require_finite("speeds", speeds), require_finite("load", load)
     if grid.ndim != 1:
         raise InputError(f"speeds must be a list of numbers, got {brief(speeds)}")
     if loads.ndim == 2 and loads.shape[1] != grid.size:
         raise InputError(f"load must be one, or one for each of {grid.size} speeds, got shape {loads.shape}")
     columns = list(loads.T) if loads.ndim == 2 else [loads]
-    planar = freedoms_of(reaction) == PLANAR
+    planar = port.freedoms_of(reaction) == PLANAR
     sound = planar and loads.shape[:1] == (2,) and loads.ndim < 3 and all(one.any() for one in columns)
     for one in () if sound else columns:
-        checked_load(one) if planar else require_place(reaction, one, "load")
+        checked_load(one) if planar else port.require_place(reaction, one, "load")
     found = settled(reaction, columns, grid.tolist())
     result = []
     for k, speed in enumerate(grid.tolist()):
         result.append(found[k] or _found(reaction, columns[k % len(columns)], speed))
-        warn_of_flow(reaction, speed, result[-1].temperature)
+        port.warn_of_flow(reaction, speed, result[-1].temperature)
     for one in columns:
-        warn_of_load(reaction, one)
+        port.warn_of_load(reaction, one)
     return tuple(result)
 
 
@@ -180,8 +161,10 @@ def settled(reaction: Any, loads: Sequence[Array], speeds: Sequence[float]) -> l
     Where it is None, `equilibrium` finds it, warns, or tells why there is none. The loads are one for all
     speeds, or one for each.
     """
-    searched = not (is_warming(reaction) or states_rest(reaction)) and freedoms_of(reaction) == PLANAR
-    call = compiled_force(reaction) if searched and clearance_of(reaction) < math.inf else None
+    searched = (
+        not (port.is_warming(reaction) or states_rest(reaction)) and port.freedoms_of(reaction) == PLANAR
+    )
+    call = port.compiled_force(reaction) if searched and port.clearance_of(reaction) < math.inf else None
     if call is None or not speeds:
         return [None] * len(speeds)
     each = [loads[k % len(loads)] for k in range(len(speeds))]
@@ -193,9 +176,11 @@ def settled(reaction: Any, loads: Sequence[Array], speeds: Sequence[float]) -> l
     rows["force"], rows["speed"] = told[:, :2], told[:, 2]
     rows["lead"] = np.copysign(_FIRST_ANGLE, told[:, 2])
     if hasattr(reaction, "force_noise"):
-        rows["noise"] = [force_noise(reaction, speed) for speed in speeds]
+        rows["noise"] = [port.force_noise(reaction, speed) for speed in speeds]
     if hasattr(reaction, "rest_place"):
-        near = [rest_place(reaction, tuple(load), speed) for load, speed in zip(each, speeds, strict=True)]
+        near = [
+            port.rest_place(reaction, tuple(load), speed) for load, speed in zip(each, speeds, strict=True)
+        ]
         rows["near"] = [(math.nan, math.nan) if one is None else one for one in near]
     points = (structure("rf_static_point") * len(speeds))()
     loops()["rf_static_places"](places, len(speeds), points)
@@ -214,11 +199,11 @@ def _row() -> np.dtype[Any]:
 
 def _found(reaction: Any, load: Array, speed: float) -> Equilibrium:
     """Return the equilibrium of checked arguments."""
-    if is_warming(reaction):
+    if port.is_warming(reaction):
         return _warm(reaction, load, speed)
     following = states_rest(reaction)
     film: Any = quasi_static(reaction)
-    if freedoms_of(film) != PLANAR or not clearance_of(film) < math.inf:
+    if port.freedoms_of(film) != PLANAR or not port.clearance_of(film) < math.inf:
         return _without_circle(film, load, speed)
     target = _target(film, load, speed, following=following, told=True)
     # A state that the search only passes through is nobody's answer; that of the result is warned of.
@@ -230,7 +215,7 @@ def _found(reaction: Any, load: Array, speed: float) -> Equilibrium:
     if not best.found:
         raise EquilibriumError(_why_not(load, target, best))
     found = _result(film, load, target, best)
-    if not found.residual <= MOST_LEFT:
+    if not found.residual <= port.MOST_LEFT:
         raise EquilibriumError(_not_found(load, speed, found.residual))
     if best.unstable:
         warn_user(UNSTABLE.format(found.position.tolist(), speed))
@@ -254,17 +239,17 @@ def _without_circle(reaction: Any, load: Array, speed: float) -> Equilibrium:
     """
     n = len(load)
     way = np.array([signal.nominal for signal in reaction.inputs[:n]])
-    told = rest_place(reaction, load.tolist(), speed)
+    told = port.rest_place(reaction, load.tolist(), speed)
     place, still = np.zeros(n) if told is None else np.asarray(told, dtype=float), np.zeros(n)
 
     def left(at: Array) -> Array:
-        return static_force(reaction, at, still, speed) + load
+        return port.static_force(reaction, at, still, speed) + load
 
     force = load if load.any() else np.array([signal.nominal for signal in reaction.outputs[:n]])
     size, steps = float(np.linalg.norm(force * way)), 0
     missing = left(place)
     while float(np.linalg.norm(missing * way)) > _ENOUGH * size and steps < _PLACES:
-        slopes = static_slopes(reaction, place, still, speed)[:, :n]
+        slopes = port.static_slopes(reaction, place, still, speed)[:, :n]
         step = np.linalg.lstsq(slopes * np.outer(way, way), -missing * way, rcond=1e-14)[0] * way
         for halving in range(_BACK):
             trial = place + 0.5**halving * step
@@ -277,15 +262,16 @@ def _without_circle(reaction: Any, load: Array, speed: float) -> Equilibrium:
             break
     imbalance = float(np.linalg.norm(missing * way)) / size
     if not imbalance <= max(
-        _ENOUGH, min(force_noise(reaction, speed) * way.max() / max(size, 1e-300), MOST_LEFT)
+        _ENOUGH, min(port.force_noise(reaction, speed) * way.max() / max(size, 1e-300), port.MOST_LEFT)
     ):
         raise EquilibriumError(_not_found(load, speed, imbalance))
-    if clearance_of(reaction) < math.inf and not relative_film(reaction, place) > 0.0:
+    clearance = port.clearance_of(reaction)
+    if clearance < math.inf and not port.relative_film(reaction, place) > 0.0:
         raise EquilibriumError(
             f"load must be within what the reaction carries at speed {speed!r} rad/s inside its clearance "
-            f"{clearance_of(reaction):.6g} m, got load {load.tolist()}, which takes it to {place.tolist()}"
+            f"{clearance:.6g} m, got load {load.tolist()}, which takes it to {place.tolist()}"
         )
-    slopes = static_slopes(reaction, place, still, speed)[:, :n] * np.outer(way, way)
+    slopes = port.static_slopes(reaction, place, still, speed)[:, :n] * np.outer(way, way)
     if np.linalg.eigvals(slopes).real.max() > _NEUTRAL_SLOPE * np.abs(slopes).max():
         warn_user(UNSTABLE.format(place.tolist(), speed))
     found = _told(reaction, place, load, speed, imbalance, steps)
@@ -297,7 +283,7 @@ def _told(
     reaction: Any, place: Array, load: Array, speed: float, imbalance: float, steps: int
 ) -> Equilibrium:
     """Return a place of any freedoms as an equilibrium."""
-    freedoms, clearance = freedoms_of(reaction), clearance_of(reaction)
+    freedoms, clearance = port.freedoms_of(reaction), port.clearance_of(reaction)
     planar = freedoms[:2] == PLANAR
     distance = math.hypot(
         *(part for name, part in zip(freedoms, place.tolist(), strict=True) if name in PLANAR)
@@ -312,7 +298,7 @@ def _told(
         load=load,
         eccentricity_ratio=distance / clearance,
         attitude_angle=angle,
-        minimum_film=float(minimum_film(reaction, place)),
+        minimum_film=float(port.minimum_film(reaction, place)),
         residual=imbalance,
         iterations=steps,
         reaction=reaction,
@@ -403,7 +389,7 @@ def _result(reaction: Any, load: Array, target: StaticTarget, point: Any) -> Equ
         attitude_angle=math.remainder(angle, 2.0 * math.pi),
         # In a circle from s, which has its digits near the wall.
         minimum_film=float(reaction.minimum_film(position))
-        if has_wall(reaction)
+        if port.has_wall(reaction)
         else target.struct.clearance / (1.0 + math.exp(point.s)),
         residual=math.hypot(*(force + load)) / target.size,
         iterations=point.steps,
@@ -504,7 +490,7 @@ class StaticTarget(NamedTuple):
         if self.call.raised:
             raise self.call.raised[0]
         x, y = point.position
-        prepared_tangent(self.film)(x, y, 0.0, 0.0, self.struct.speed)
+        port.prepared_tangent(self.film)(x, y, 0.0, 0.0, self.struct.speed)
 
 
 def _target(
@@ -515,17 +501,17 @@ def _target(
     A film that has `told` is asked what room there is, what roundoff leaves of its force, and where the
     journal rests.
     """
-    call, x, y = compiled_force(film), float(load[0]), float(load[1])
-    near = rest_place(film, (x, y), speed) if told else None
+    call, x, y = port.compiled_force(film), float(load[0]), float(load[1])
+    near = port.rest_place(film, (x, y), speed) if told else None
     used = call or _called_back(film)
     kind: Any = structure("rf_static_target")
     struct = kind(
         used.address,
         used.data,
         film.clearance,
-        min(relative_film(film, np.zeros(2)), 1.0) if told else 1.0,
+        min(port.relative_film(film, np.zeros(2)), 1.0) if told else 1.0,
         math.copysign(_FIRST_ANGLE, speed) if told and not following else 0.0,
-        force_noise(film, speed) if told else 0.0,
+        port.force_noise(film, speed) if told else 0.0,
         speed,
         (-x, -y),
         (math.nan, math.nan) if near is None else tuple(near),
@@ -536,7 +522,7 @@ def _target(
 def _called_back(film: Any) -> FilmCall:
     """Return the force of a film in Python for the search, which ends at an error that says more."""
     raised: list[BaseException] = []
-    tangent = prepared_tangent(film)
+    tangent = port.prepared_tangent(film)
 
     def answer(_: Any, state: Any, force: Any, slopes: Any) -> int:
         try:
@@ -674,7 +660,7 @@ def heated_equilibrium(film: FieldFilm, load: ArrayLike, speed: float) -> Heated
         found = _settled(film, load, speed, near) or _unsettled(film, load, speed, near)
         if found is not None:
             mean = float(np.mean(found.state.oil_temperature))
-            warn_of_flow(film, speed, mean, found.state.maximum_temperature)
+            port.warn_of_flow(film, speed, mean, found.state.maximum_temperature)
             return found
     raise EquilibriumError(
         f"load must be one that the warm film carries, got {load.tolist()} N at {speed:g} rad/s: film and "
@@ -806,7 +792,7 @@ def near_states(film: FieldFilm, load: Array, speed: float, first: Array) -> Ite
 def _places(film: FieldFilm, load: Array, speed: float, first: Array, temperature: float) -> Iterator[Array]:
     yield first
     points = []
-    clearance = float(film.bearing.clearance) * min(relative_film(film.bearing, np.zeros(2)), 1.0)
+    clearance = float(film.bearing.clearance) * min(port.relative_film(film.bearing, np.zeros(2)), 1.0)
     for chi in SCANNED:
         for angle in np.linspace(0.0, 2.0 * math.pi, ANGLES, endpoint=False):
             place = chi * clearance * np.array([math.cos(angle), math.sin(angle)])

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..core import port
 from ..core.errors import (
     FilmContactError,
     InputError,
@@ -20,16 +21,6 @@ from ..core.errors import (
     warn_user,
 )
 from ..core.model import Array
-from ..core.port import (
-    clearance_of,
-    compiled_force,
-    freedoms_of,
-    inertial,
-    minimum_film,
-    require_massless,
-    static_force,
-    static_slopes,
-)
 from ..core.results import Trajectory
 from ..core.signals import Signal
 from ..native import Status
@@ -65,10 +56,10 @@ def of_station(station: str) -> str:
 def warn_of_thin_films(films: Mapping[str, Any], run: Trajectory) -> None:
     """Warn where a run has a film, by its station, that is thinner than surfaces are rough."""
     for station, film in films.items():
-        place = [run.signals.get(station_name(station, name)) for name in freedoms_of(film)]
-        if any(row is None or not row.size for row in place) or not clearance_of(film) < math.inf:
+        place = [run.signals.get(station_name(station, name)) for name in port.freedoms_of(film)]
+        if any(row is None or not row.size for row in place) or not port.clearance_of(film) < math.inf:
             continue
-        least = minimum_film(film, np.array(place))
+        least = port.minimum_film(film, np.array(place))
         if least[at := int(np.argmin(least))] < THINNEST:
             warn_user(
                 f"the least film{of_station(station)} should be at least {THINNEST:g} m, "
@@ -83,17 +74,17 @@ def film_call(reaction: Any, *, tilts: bool = False) -> FilmCall:
 
     With `tilts` it may be that of a journal that feels its tilt.
     """
-    require_massless("reaction", reaction)
+    port.require_massless("reaction", reaction)
     if tilts and feels_tilt(reaction):
         return reaction.tilted_call() or _called_back(reaction)
-    return compiled_force(reaction) or _called_back(reaction)
+    return port.compiled_force(reaction) or _called_back(reaction)
 
 
 def call_over_time(reaction: Any) -> FilmCall:
     """Return the same with the mass that a reaction adds, that too called back where it is not in C."""
-    if inertial(reaction) is None:
+    if port.inertial(reaction) is None:
         return film_call(reaction, tilts=True)
-    call: FilmCall | None = compiled_force(reaction)
+    call: FilmCall | None = port.compiled_force(reaction)
     return _called_back(reaction) if call is None or call.mass == MASSLESS else call
 
 
@@ -105,9 +96,9 @@ def call_with_added_mass(reaction: Any) -> FilmCall:
     InputError
         If it adds a mass that is not compiled.
     """
-    if inertial(reaction) is None:
+    if port.inertial(reaction) is None:
         return film_call(reaction)
-    call: FilmCall | None = compiled_force(reaction)
+    call: FilmCall | None = port.compiled_force(reaction)
     if call is None or call.mass == MASSLESS:
         raise InputError(
             f"reaction must have its added mass in C here, as a damper on a map, got {reaction!r}"
@@ -116,14 +107,14 @@ def call_with_added_mass(reaction: Any) -> FilmCall:
 
 
 def _called_back(reaction: Any) -> FilmCall:
-    n = len(freedoms_of(reaction))
+    n = len(port.freedoms_of(reaction))
 
     def moved(state: Any) -> tuple[Array, Array, float]:
         return np.array(state[:n]), np.array(state[n : 2 * n]), state[2 * n]
 
     def forced(state: Any) -> tuple[Array, Array]:
         at = moved(state)
-        return static_force(reaction, *at), static_slopes(reaction, *at)[:, : 2 * n + 1]
+        return port.static_force(reaction, *at), port.static_slopes(reaction, *at)[:, : 2 * n + 1]
 
     def weighed(state: Any) -> tuple[Array, Array]:
         at = moved(state)
@@ -132,7 +123,7 @@ def _called_back(reaction: Any) -> FilmCall:
 
     raised: list[BaseException] = []
     call = _call_of(forced, raised)
-    if inertial(reaction) is None:
+    if port.inertial(reaction) is None:
         return call
     mass = _call_of(weighed, raised)
     return call._replace(mass=mass[:2], owner=(call.owner, mass.owner))

@@ -18,16 +18,9 @@ from ..core.port import Bearings, freedoms_of
 from ..core.results import Coefficients, FrequencyDependentCoefficients, InertialCoefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
+from . import rotor_matrices
 from .modal_reduction import all_rows, models, usual_frequency
 from .rotor_equilibrium import RotorEquilibrium, rest
-from .rotor_matrices import (
-    FullRotorModel,
-    frequency_dependent_films,
-    growth_roundoff,
-    holding,
-    second_order,
-    whirl_near,
-)
 from .whirl import GROWTH_ROUNDOFF
 
 REACH = 20.0
@@ -53,7 +46,7 @@ def frequency_dependent_motion(
         If there is none next to a motion that turns faster than it decays, or grows.
     """
     try:
-        s, right, left = whirl_near(structure, at, frequency, value, shape)
+        s, right, left = rotor_matrices.whirl_near(structure, at, frequency, value, shape)
     except ConvergenceError:
         if value.imag > -value.real:
             raise
@@ -77,10 +70,10 @@ def rotor_growing(structure: Structure, at: RotorEquilibrium, values: np.ndarray
     values : ndarray [1/s]
         Exponents next to which the phase turns fast.
     """
-    films = {name: _without_mass(film) for name, film in frequency_dependent_films(at).items()}
+    films = {name: _without_mass(film) for name, film in rotor_matrices.frequency_dependent_films(at).items()}
     still = {name: one for name, (one, _) in films.items()}
     near = replace(at, coefficients={**at.coefficients, **still})
-    system, rows = second_order(structure, near), all_rows(structure, still)
+    system, rows = rotor_matrices.second_order(structure, near), all_rows(structure, still)
     mass, damping, stiffness = (np.asarray(part) for part in system)
 
     def ratio(nu: float) -> complex:
@@ -98,9 +91,12 @@ def rotor_growing(structure: Structure, at: RotorEquilibrium, values: np.ndarray
     reference, vectors = np.linalg.eig(system.state_matrix())
     own = [_poles(motion) for _, motion in films.values()]
     frequencies = _frequencies(reference, np.concatenate([values, *own]), abs(at.speed))
-    held = holding(FullRotorModel(structure, near, 0.0), reference, vectors[: len(mass)])
+    held = rotor_matrices.holding(
+        rotor_matrices.FullRotorModel(structure, near, 0.0), reference, vectors[: len(mass)]
+    )
     bound = np.maximum(
-        growth_roundoff(reference, held, at.speed), GROWTH_ROUNDOFF * (np.abs(reference) + abs(at.speed))
+        rotor_matrices.growth_roundoff(reference, held, at.speed),
+        GROWTH_ROUNDOFF * (np.abs(reference) + abs(at.speed)),
     )
     known = int(np.sum(reference.real > bound)) + sum(map(_growing, own))
     return growing_count(ratio, frequencies, known)
@@ -146,7 +142,7 @@ def require_all_growing(
     if structure.hysteresis is not None:
         return
     at = rest(structure, bearings, speed)
-    if not frequency_dependent_films(at):
+    if not rotor_matrices.frequency_dependent_films(at):
         return
     count = rotor_growing(structure, at, values)
     if count != growing:

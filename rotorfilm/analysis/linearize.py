@@ -11,19 +11,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..core import port
 from ..core.dynamic_stiffness import coefficients_of, has_own_stiffness, rest_state, small_motion, states_rest
 from ..core.errors import ConvergenceError, InputError, brief, require_finite, require_kind, require_positive
 from ..core.inputs import arguments, quantities
 from ..core.model import Array, Linearization, Model
-from ..core.port import (
-    Complex,
-    Reaction,
-    at_balanced_temperature,
-    freedoms_of,
-    input_of,
-    require_reaction,
-    static_slopes,
-)
 from ..core.readable import Readable
 from ..core.results import Equilibrium, FrequencyDependentCoefficients
 from ..core.signals import FORCE_OUTPUTS, JOURNAL_INPUTS, Signal, names, place_names
@@ -123,15 +115,15 @@ def checked_vector(name: str, value: ArrayLike, size: int) -> Array:
 
 def _rested(model: Any, at: Equilibrium) -> tuple[Any, OperatingPoint]:
     """Return a reaction at the temperature of its rest, and the input and states that rest there."""
-    given, wanted = names(model.inputs), [*place_names(freedoms_of(model)), "speed"]
-    if given != wanted or len(at.position) != len(freedoms_of(model)):
+    given, wanted = names(model.inputs), [*place_names(port.freedoms_of(model)), "speed"]
+    if given != wanted or len(at.position) != len(port.freedoms_of(model)):
         raise InputError(
             "at must be an OperatingPoint for a model that is no film with the inputs "
             f"{', '.join(wanted)}, got an Equilibrium for the inputs {given}"
         )
-    film = at_balanced_temperature(model, at.position, at.speed)
+    film = port.at_balanced_temperature(model, at.position, at.speed)
     x = rest_state(film, at.position, at.speed)
-    return film, OperatingPoint(x=x, u=input_of(at.position, None, at.speed))
+    return film, OperatingPoint(x=x, u=port.input_of(at.position, None, at.speed))
 
 
 # A frequency-dependent film as a linear system for python-control, with its error over frequencies.
@@ -200,7 +192,7 @@ class _Fit(NamedTuple):
 @one_blas_thread
 @arguments
 def film_system(
-    film: Reaction,
+    film: port.Reaction,
     at: Equilibrium,
     *,
     highest_frequency: float | None = None,
@@ -235,7 +227,7 @@ def film_system(
     exact: oil that crosses a cavity acts as a delay, and the functions converge to it at a geometric rate.
     The fitted system is always stable, and its damping in fast motion is positive.
     """
-    require_reaction("film", film, heavy=True, planar=True)
+    port.require_reaction("film", film, heavy=True, planar=True)
     if not states_rest(film):
         raise InputError(f"film must be a frequency-dependent film, such as a JFOFilm, got {brief(film)}")
     require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")
@@ -243,7 +235,7 @@ def film_system(
     coefficients: Any = coefficients_of(small_motion(film, at.position, at.speed), at.position, at.speed)
     fit = _fitted(coefficients, highest_frequency, tolerance)
     A, B, C, D = fit.linearization
-    by_speed = static_slopes(film, at.position, np.zeros(2), at.speed)[:, 4:]
+    by_speed = port.static_slopes(film, at.position, np.zeros(2), at.speed)[:, 4:]
     system = control_system(
         A,
         np.hstack([B, np.zeros((len(A), 1))]),
@@ -296,7 +288,7 @@ def _fitted(film: FrequencyDependentCoefficients, highest_frequency: float | Non
     )
 
 
-def _fits(nu: Array, K: Complex, still: Array, top: float) -> Iterator[_Fit]:
+def _fits(nu: Array, K: port.Complex, still: Array, top: float) -> Iterator[_Fit]:
     """Yield fits to the stiffness at some frequencies, those with few states first."""
     size = 1.0 / np.abs(K).max(axis=(1, 2))
     wanted = ((K - still) * size[:, None, None]).reshape(len(nu), 4)
@@ -317,5 +309,5 @@ def _at_rest(order: int, decay: float) -> Array:
     return np.asarray((-1.0) ** np.arange(order) / decay)
 
 
-def _real(rows: Complex) -> Array:
+def _real(rows: port.Complex) -> Array:
     return np.concatenate([rows.real, rows.imag])

@@ -20,29 +20,10 @@ from ..core.results import Trajectory
 from ..core.signals import PLANAR
 from ..rotors import FlexibleRotor, MountedRotor, RigidRotor, mount
 from ..rotors.structure import MatrixRotor, Structure, freedom_rows, station_name
+from . import harmonic_balance
 from .compiled_march import ModalArrays
 from .compiled_rotor import Complex, ModalRotor, journal_rows, modal_rotor, modes, take_apart
 from .equilibrium import equilibrium
-from .harmonic_balance import (
-    CONVERGED,
-    Balance,
-    ModalFilms,
-    PeriodicRotor,
-    Receptance,
-    Solution,
-    basis,
-    constant,
-    driven,
-    end_of,
-    film_forces,
-    lengthened,
-    resized,
-    series_rows,
-    solve,
-    subharmonic,
-    truncation_of,
-    with_wave,
-)
 from .modal_reduction import FEW, MARGIN, BandedMotion, Condensed, models
 from .port_orbits import PortRotor, carried_over, step_phases
 from .rotor_equilibrium import rotor_equilibrium
@@ -127,7 +108,9 @@ class PeriodicOrbit(Drawable):
 
     def position(self, time: ArrayLike) -> Array:
         """Return x, y of each journal at times (n,) [s], shape (n_bearings, 2, n) [m]."""
-        values, _ = series_rows(self.harmonics, self.frequency * np.atleast_1d(np.asarray(time, dtype=float)))
+        values, _ = harmonic_balance.series_rows(
+            self.harmonics, self.frequency * np.atleast_1d(np.asarray(time, dtype=float))
+        )
         return np.asarray(self.series @ values.T)
 
     @cached_property
@@ -200,29 +183,32 @@ def periodic_orbit(
     """
     require_count("periods", periods)
     require_positive("tolerance", tolerance)
-    converged = max(CONVERGED, BALANCED * tolerance)
+    converged = max(harmonic_balance.CONVERGED, BALANCED * tolerance)
     for level in range(WHOLE + 1):
         found = _found(orbit_rotor(mounted, level), start, periods, converged)
-        orbit = finished(lengthened(found, tolerance, converged), stability=stability)
+        orbit = finished(harmonic_balance.lengthened(found, tolerance, converged), stability=stability)
         if orbit.residual <= tolerance:
             break
     return orbit
 
 
 def _found(
-    rotor: PeriodicRotor, start: PeriodicOrbit | Trajectory | None, periods: int, converged: float
-) -> Solution[PeriodicRotor]:
+    rotor: harmonic_balance.PeriodicRotor,
+    start: PeriodicOrbit | Trajectory | None,
+    periods: int,
+    converged: float,
+) -> harmonic_balance.Solution[harmonic_balance.PeriodicRotor]:
     """Return the orbit of a rotor in its first harmonics."""
     if rotor.is_driven:
         return _driven(rotor, start, periods, converged)
     if start is None:
         raise InputError("start must be an orbit or a run that ends in whirl for a rotor without unbalance")
     series, frequency = _start_series(rotor, start, None)
-    balance = Balance(rotor=rotor, harmonics=HARMONICS, periods=0)
-    return solve(balance, resized(series, HARMONICS), frequency, converged)
+    balance = harmonic_balance.Balance(rotor=rotor, harmonics=HARMONICS, periods=0)
+    return harmonic_balance.solve(balance, harmonic_balance.resized(series, HARMONICS), frequency, converged)
 
 
-def orbit_rotor(mounted: MountedRotor, level: int = 0) -> PeriodicRotor:
+def orbit_rotor(mounted: MountedRotor, level: int = 0) -> harmonic_balance.PeriodicRotor:
     """Return a rotor with its bearings as the equations of an orbit see it, in C where its bearings allow.
 
     It is in more of its shapes at a higher level, and whole at `WHOLE`.
@@ -252,18 +238,25 @@ def _model(rotor: FlexibleRotor, level: int) -> Condensed | None:
 
 
 def _driven(
-    rotor: PeriodicRotor, start: PeriodicOrbit | Trajectory | None, periods: int, converged: float
-) -> Solution[PeriodicRotor]:
+    rotor: harmonic_balance.PeriodicRotor,
+    start: PeriodicOrbit | Trajectory | None,
+    periods: int,
+    converged: float,
+) -> harmonic_balance.Solution[harmonic_balance.PeriodicRotor]:
     harmonics = HARMONICS * periods
-    balance = Balance(rotor=rotor, harmonics=harmonics, periods=periods)
+    balance = harmonic_balance.Balance(rotor=rotor, harmonics=harmonics, periods=periods)
     if start is not None:
         series, _ = _start_series(rotor, start, balance.frequency)
-        return solve(balance, resized(series, harmonics), balance.frequency, converged)
+        return harmonic_balance.solve(
+            balance, harmonic_balance.resized(series, harmonics), balance.frequency, converged
+        )
     rest = rotor.guess()
-    return driven(balance, constant(rest, harmonics), rest, converged)
+    return harmonic_balance.driven(balance, harmonic_balance.constant(rest, harmonics), rest, converged)
 
 
-def finished(solution: Solution[PeriodicRotor], *, stability: bool = True) -> PeriodicOrbit:
+def finished(
+    solution: harmonic_balance.Solution[harmonic_balance.PeriodicRotor], *, stability: bool = True
+) -> PeriodicOrbit:
     """Return the orbit of a solution, with its multipliers if asked for."""
     balance, series, frequency = solution.balance, solution.series, solution.frequency
     rotor = balance.rotor
@@ -278,7 +271,7 @@ def finished(solution: Solution[PeriodicRotor], *, stability: bool = True) -> Pe
         state=rotor.state(series, frequency, balance.periods),
         multipliers=rotor.multipliers(series, frequency) if stability else np.zeros(0, dtype=complex),
         residual=max(solution.residual, rotor.neglected(balance, series, frequency)),
-        truncation=truncation_of(solution),
+        truncation=harmonic_balance.truncation_of(solution),
         work={
             "film_evaluations": (solution.iterations + 1) * balance.samples * len(rotor.names),
             "iterations": solution.iterations,
@@ -287,18 +280,18 @@ def finished(solution: Solution[PeriodicRotor], *, stability: bool = True) -> Pe
 
 
 def _start_series(
-    rotor: PeriodicRotor, start: PeriodicOrbit | Trajectory, frequency: float | None
+    rotor: harmonic_balance.PeriodicRotor, start: PeriodicOrbit | Trajectory, frequency: float | None
 ) -> tuple[Array, float]:
     """Return the series of a start and its frequency; of a run, that of its end."""
     if not isinstance(start, PeriodicOrbit):
-        return end_of(rotor, start, frequency, HARMONICS)
+        return harmonic_balance.end_of(rotor, start, frequency, HARMONICS)
     series = series_of(rotor, start)
     if frequency is None or start.periods * frequency == 0.0:
         return series, start.frequency
-    return subharmonic(series, round(start.frequency / frequency)), frequency
+    return harmonic_balance.subharmonic(series, round(start.frequency / frequency)), frequency
 
 
-def series_of(rotor: PeriodicRotor, orbit: PeriodicOrbit) -> Array:
+def series_of(rotor: harmonic_balance.PeriodicRotor, orbit: PeriodicOrbit) -> Array:
     """Return the series of all rows of an orbit; raise InputError where it is that of another rotor."""
     planar = [station_name(name, axis) for name in orbit.stations for axis in PLANAR]
     known = {**dict(zip(planar, orbit.series.reshape(len(planar), -1), strict=True)), **orbit.further}
@@ -308,7 +301,7 @@ def series_of(rotor: PeriodicRotor, orbit: PeriodicOrbit) -> Array:
 
 
 @dataclass(frozen=True, eq=False)
-class CompiledRotor(ModalFilms):
+class CompiledRotor(harmonic_balance.ModalFilms):
     """A rotor in modes on bearings that react to x and y without states, whose forces are asked for in C.
 
     Attributes
@@ -359,7 +352,7 @@ class CompiledRotor(ModalFilms):
             return state_at_start(self.modal, series, frequency, periods)
         return WholeFilms(self.modal, self.model.whole).state(series, frequency, periods)
 
-    def neglected(self, balance: Balance[Any], series: Array, frequency: float) -> float:
+    def neglected(self, balance: harmonic_balance.Balance[Any], series: Array, frequency: float) -> float:
         """Return the imbalance of an orbit by the shapes that were left out, in clearances.
 
         It is infinite where a bearing may drive motions faster than those whose multipliers are known.
@@ -386,7 +379,7 @@ class CompiledRotor(ModalFilms):
 
         From u exp(i w t) it takes the power w^2 u* H u / 2, with H = (C + C^T) / 2 - i (K - K^T) / (2 w).
         """
-        at = basis(series.shape[1] // 2, 2 * series.shape[1] + 6)
+        at = harmonic_balance.basis(series.shape[1] // 2, 2 * series.shape[1] + 6)
         _, stiffness, damping = self.tangents(series @ at.values.T, frequency * (series @ at.slopes.T))
         K, C = (-part.mean(axis=-1).reshape(-1, 2, 2) for part in (stiffness, damping))
         C = C + self.modal.damper.reshape(-1, 2, 1) * np.eye(2)
@@ -396,7 +389,7 @@ class CompiledRotor(ModalFilms):
 
 
 @dataclass(frozen=True, eq=False)
-class WholeFilms(ModalFilms):
+class WholeFilms(harmonic_balance.ModalFilms):
     """All coordinates of a rotor on the springs of modes in few shapes, as the equations of an orbit see it.
 
     Attributes
@@ -423,7 +416,7 @@ class WholeFilms(ModalFilms):
         stiffness = sparse.csr_array(s.stiffness) + speed * sparse.csr_array(s.circulation) + spring
         return BandedMotion(sparse.csr_array(s.mass), damping, stiffness)
 
-    def receptance(self, harmonics: int, frequency: float) -> Receptance:
+    def receptance(self, harmonics: int, frequency: float) -> harmonic_balance.Receptance:
         """Return what the journals answer on the springs of the modes."""
         rows = self.rows
         answers = [rows @ self.motion.solve(1j * k * frequency, rows.T) for k in range(harmonics + 1)]
@@ -434,9 +427,9 @@ class WholeFilms(ModalFilms):
         s, rows = self.whole, self.rows
         rest = (rows @ self.motion.solve(0.0, s.weight[:, None])).real[:, 0]
         if not periods:
-            return constant(rest, harmonics)
+            return harmonic_balance.constant(rest, harmonics)
         moved = rows @ self.motion.solve(1j * periods * frequency, self._turning[:, None])
-        return with_wave(rest, moved[:, 0], harmonics, periods)
+        return harmonic_balance.with_wave(rest, moved[:, 0], harmonics, periods)
 
     @property
     def _turning(self) -> Complex:
@@ -447,7 +440,7 @@ class WholeFilms(ModalFilms):
     def state(self, series: Array, frequency: float, periods: int) -> Array:
         """Return the state (2 N,) at phase 0 of an orbit."""
         harmonics = series.shape[1] // 2
-        at = basis(harmonics, 4 * harmonics + 8)
+        at = harmonic_balance.basis(harmonics, 4 * harmonics + 8)
         force = self.forces(series @ at.values.T, frequency * (series @ at.slopes.T)) @ at.back.T
         place = self.motion.solve(0.0, (self.rows.T @ force[:, 0] + self.whole.weight)[:, None]).real[:, 0]
         rate = np.zeros_like(place)
@@ -474,8 +467,10 @@ def monodromy(modal: ModalRotor, series: Array, frequency: float, steps: int | N
         By default two for each harmonic.
     """
     steps, phase = step_phases(series.shape[1] // 2, steps)
-    values, rates = series_rows(series.shape[1] // 2, phase)
-    _, stiffness, damping = film_forces(modal, series @ values.T, frequency * (series @ rates.T))
+    values, rates = harmonic_balance.series_rows(series.shape[1] // 2, phase)
+    _, stiffness, damping = harmonic_balance.film_forces(
+        modal, series @ values.T, frequency * (series @ rates.T)
+    )
     slopes = np.moveaxis(np.concatenate([stiffness, damping], axis=1), 2, 0)
     mean = slopes.mean(axis=0)
     modal, count = on_mean_films(modal, mean), len(modal.parts.names)
@@ -521,8 +516,8 @@ def state_at_start(modal: ModalRotor, series: Array, frequency: float, periods: 
     harmonics = series.shape[1] // 2
     samples = 4 * harmonics + 8
     phase = 2.0 * np.pi * np.arange(samples) / samples
-    values, rates = series_rows(harmonics, phase)
-    force = film_forces(modal, series @ values.T, frequency * (series @ rates.T))[0]
+    values, rates = harmonic_balance.series_rows(harmonics, phase)
+    force = harmonic_balance.film_forces(modal, series @ values.T, frequency * (series @ rates.T))[0]
     spectrum = np.fft.rfft(force, axis=1)[:, : harmonics + 1] / samples
     total = np.zeros(len(modal.values), dtype=complex)
     for k in range(harmonics + 1):
@@ -570,7 +565,9 @@ def rest_of(mounted: MountedRotor, modal: ModalRotor) -> Rest:
         If it is not found.
     """
     position = _newton(modal, first_guess(mounted, modal))
-    _, stiffness, damping = film_forces(modal, position[:, None], np.zeros((len(position), 1)))
+    _, stiffness, damping = harmonic_balance.film_forces(
+        modal, position[:, None], np.zeros((len(position), 1))
+    )
     forced = _by_state(modal, np.concatenate([stiffness, damping], axis=1)[..., 0])
     return Rest(position, shifted_matrix(modal) + force_columns(modal) @ forced)
 
@@ -598,8 +595,8 @@ def leading(matrix: Array) -> Complex:
 
 
 def _newton(modal: ModalRotor, start: Array) -> Array:
-    balance = Balance(rotor=ModalFilms(modal), harmonics=0, periods=0)
-    series = constant(start, 0)
+    balance = harmonic_balance.Balance(rotor=harmonic_balance.ModalFilms(modal), harmonics=0, periods=0)
+    series = harmonic_balance.constant(start, 0)
     for _ in range(_NEWTON_STEPS):
         at = balance.residual(series, 1.0)
         step = np.asarray(np.linalg.solve(at.by_series, -at.values))

@@ -12,6 +12,7 @@ from typing import Any, cast
 
 import numpy as np
 
+from ..core import port
 from ..core.errors import (
     ConvergenceError,
     EquilibriumError,
@@ -22,35 +23,14 @@ from ..core.errors import (
 )
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.port import (
-    MOST_LEFT,
-    Bearings,
-    clearance_of,
-    freedoms_of,
-    inertial,
-    is_constant,
-    minimum_film,
-    relative_film,
-    require_reactions,
-    rest_place,
-    rest_temperature,
-)
 from ..core.readable import Item, Readable
 from ..core.results import Coefficients, by_freedom
 from ..core.signals import FREEDOMS, PLANAR
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure, hysteresis_matrices, untouched
+from . import modal_reduction
 from .coefficients import film_coefficients
 from .equilibrium import equilibrium
-from .modal_reduction import (
-    all_rows,
-    counted,
-    force_at,
-    models,
-    slopes_at,
-    tally,
-    usual_frequency,
-)
 from .threads import one_blas_thread
 
 KELVIN = 1e-7
@@ -104,7 +84,7 @@ class RotorEquilibrium(Readable):
 
 @one_blas_thread
 @arguments
-def rotor_equilibrium(rotor: FlexibleRotor, bearings: Bearings, speed: float) -> RotorEquilibrium:
+def rotor_equilibrium(rotor: FlexibleRotor, bearings: port.Bearings, speed: float) -> RotorEquilibrium:
     """Return the static equilibrium of a rotor in its bearings under its weight.
 
     With two bearings the loads follow from statics; with more they also depend on the stiffness of the shaft.
@@ -141,8 +121,8 @@ def rotor_equilibrium(rotor: FlexibleRotor, bearings: Bearings, speed: float) ->
     """
     require_flexible(rotor)
     speed = require_number("speed", speed)
-    model = next(models(rotor, usual_frequency(rotor, 0.0)))
-    with counted("newton_steps") as work:
+    model = next(modal_reduction.models(rotor, modal_reduction.usual_frequency(rotor, 0.0)))
+    with modal_reduction.counted("newton_steps") as work:
         at = rest(model.structure, bearings, speed)
     return replace(
         at, displacement=model.lifted(at.displacement), work={"newton_steps": work["newton_steps"]}
@@ -150,15 +130,15 @@ def rotor_equilibrium(rotor: FlexibleRotor, bearings: Bearings, speed: float) ->
 
 
 def rest(
-    structure: Structure, bearings: Bearings, speed: float, near: Sequence[RotorEquilibrium] = ()
+    structure: Structure, bearings: port.Bearings, speed: float, near: Sequence[RotorEquilibrium] = ()
 ) -> RotorEquilibrium:
     """Return where a rotor of these matrices rests, from other speeds on, as `rotor_equilibrium`."""
     if near and _is_the_same_at_any_speed(structure, bearings):
         return _at_speed(near[0], speed)
-    tally("equilibria")
-    require_reactions("bearings", bearings, heavy=True)
+    modal_reduction.tally("equilibria")
+    port.require_reactions("bearings", bearings, heavy=True)
     for bearing in bearings.values():
-        if heavy := inertial(bearing):
+        if heavy := port.inertial(bearing):
             heavy.require_range(abs(speed))
     system = RestEquations(structure, bearings, speed)
     found = _from_near(system, near) if near else None
@@ -180,10 +160,10 @@ def rest(
     )
 
 
-def _is_the_same_at_any_speed(structure: Structure, bearings: Bearings) -> bool:
+def _is_the_same_at_any_speed(structure: Structure, bearings: port.Bearings) -> bool:
     """Return whether all bearings are springs and dampers, and no damping that turns presses on them."""
     turning = structure.hysteresis is not None or abs(structure.circulation).max() > 0.0
-    return not turning and all(map(is_constant, bearings.values()))
+    return not turning and all(map(port.is_constant, bearings.values()))
 
 
 def _at_speed(at: RotorEquilibrium, speed: float) -> RotorEquilibrium:
@@ -257,7 +237,7 @@ _SINGULAR = 1e15
 class RestEquations:
     """The equations of a rotor at rest: displacements in units of the smallest clearance."""
 
-    def __init__(self, structure: Structure, bearings: Bearings, speed: float) -> None:
+    def __init__(self, structure: Structure, bearings: port.Bearings, speed: float) -> None:
         unknown = sorted(set(bearings) - set(structure.stations))
         if unknown:
             raise InputError(f"bearings must be in the stations {list(structure.stations)}, got {unknown}")
@@ -266,11 +246,11 @@ class RestEquations:
         self.given = [bearings[name] for name in self.names]
         self.bearings = list(self.given)
         self.speed = speed
-        self.sizes = [len(freedoms_of(bearing)) for bearing in self.given]
+        self.sizes = [len(port.freedoms_of(bearing)) for bearing in self.given]
         self.parts = [
             slice(end - size, end) for end, size in zip(np.cumsum(self.sizes), self.sizes, strict=True)
         ]
-        self.journals = all_rows(structure, {name: bearings[name] for name in self.names})
+        self.journals = modal_reduction.all_rows(structure, {name: bearings[name] for name in self.names})
         self.stiffness = structure.stiffness + speed * structure.circulation
         if structure.hysteresis is not None:
             self.stiffness = self.stiffness + np.sign(speed) * hysteresis_matrices(structure)[0]
@@ -322,15 +302,15 @@ class RestEquations:
         """Return the position of one journal under its load, and the temperature of a film that warms."""
         bearing: Any = self.given[k]
         middle = np.zeros(self.sizes[k])
-        if np.linalg.norm(load) <= 1e-9 * self.size or not math.isfinite(clearance_of(bearing)):
-            return middle, rest_temperature(bearing, middle, self.speed)
+        if np.linalg.norm(load) <= 1e-9 * self.size or not math.isfinite(port.clearance_of(bearing)):
+            return middle, port.rest_temperature(bearing, middle, self.speed)
         if len(middle) > 2:
             # Moments that rigid bearings would have push loose balls far away: a start without them.
             straight = [
                 0.0 if FREEDOMS[f].turns else part
-                for f, part in zip(freedoms_of(bearing), load.tolist(), strict=True)
+                for f, part in zip(port.freedoms_of(bearing), load.tolist(), strict=True)
             ]
-            told = rest_place(bearing, straight, self.speed)
+            told = port.rest_place(bearing, straight, self.speed)
             return middle if told is None else np.asarray(told), None
         at = equilibrium(bearing, load, self.speed)
         return at.position, at.temperature
@@ -345,7 +325,7 @@ class RestEquations:
                 # As a seal, which carries little: others may have its load.
                 failed.append(failure)
                 middle = np.zeros(self.sizes[k])
-                found.append((middle, rest_temperature(self.given[k], middle, self.speed)))
+                found.append((middle, port.rest_temperature(self.given[k], middle, self.speed)))
         if failed and len(failed) == len(loads):
             raise failed[0]
         return found
@@ -358,7 +338,7 @@ class RestEquations:
     def balanced(self, p: Array) -> list[float | None]:
         """Return the temperatures of the films that warm, for these positions of the journals."""
         pairs = zip(self.given, self.split(p), strict=True)
-        return [rest_temperature(b, at, self.speed) for b, at in pairs]
+        return [port.rest_temperature(b, at, self.speed) for b, at in pairs]
 
     def rest(self, q: Array, p: Array) -> tuple[Array, Array]:
         """Return (q, p) at rest, downhill among balls or by continuation where one step does not converge."""
@@ -376,13 +356,15 @@ class RestEquations:
     def forces(self, p: Array) -> Array:
         """Return the forces of the bearings, one after the other."""
         pairs = zip(self.bearings, self.split(p), strict=True)
-        return np.concatenate([np.zeros(0), *(force_at(b, at, self.speed) for b, at in pairs)])
+        return np.concatenate(
+            [np.zeros(0), *(modal_reduction.force_at(b, at, self.speed) for b, at in pairs)]
+        )
 
     def slopes(self, p: Array) -> Array:
         """Return d(forces)/dp, block by block."""
         found = np.zeros((len(p), len(p)))
         for part, bearing in zip(self.parts, self.bearings, strict=True):
-            found[part, part] = slopes_at(bearing, p[part], self.speed)
+            found[part, part] = modal_reduction.slopes_at(bearing, p[part], self.speed)
         return found
 
     def residual(self, q: Array, p: Array, s: float, pressed: Array) -> tuple[Array, Array]:
@@ -395,7 +377,7 @@ class RestEquations:
 
     def tolerances(self, q: Array, p: Array, s: float, pressed: Array) -> tuple[Array, Array]:
         """Return the residuals at which the rotor rests: TOLERANCE, and roundoff of what cancels in them."""
-        lengths = np.repeat([min(clearance_of(b), 1e-4) for b in self.bearings], self.sizes)
+        lengths = np.repeat([min(port.clearance_of(b), 1e-4) for b in self.bearings], self.sizes)
         forces = np.abs(self.weight) + np.abs(self.stiffness) @ np.abs(q)
         forces = forces + np.abs(self.journals.T) @ np.abs(pressed)
         misfit = np.abs(self.journals) @ np.abs(q) + s * np.abs(p)
@@ -403,14 +385,14 @@ class RestEquations:
         allowed = TOLERANCE * self.size + roundoff * forces
         if self.weight.any():
             # Where bearings hardly hold the rotor, it moves so far that roundoff is more than its weight.
-            allowed = np.minimum(allowed, MOST_LEFT * self.size)
+            allowed = np.minimum(allowed, port.MOST_LEFT * self.size)
         return allowed, TOLERANCE * lengths + roundoff * misfit
 
     def solve(self, q: Array, p: Array, s: float, *, downhill: bool = False) -> tuple[Array, Array]:
         """Return (q, p) by Newton's method, its steps kept within the clearances or such as lower energy."""
         n = len(q)
         for _ in range(_NEWTON_STEPS):
-            tally("newton_steps")
+            modal_reduction.tally("newton_steps")
             pressed = self.forces(p)
             forces, misfit = self.residual(q, p, s, pressed)
             force_limit, misfit_limit = self.tolerances(q, p, s, pressed)
@@ -437,9 +419,9 @@ class RestEquations:
         """Return how far the shaft sags where its journal is closest to contact, if that is out of reach."""
         if not self.names:
             return ""
-        films = [relative_film(b, at) for b, at in zip(self.bearings, self.split(p), strict=True)]
+        films = [port.relative_film(b, at) for b, at in zip(self.bearings, self.split(p), strict=True)]
         k = int(np.argmin(films))
-        row, clearance = sum(self.sizes[:k]), clearance_of(self.bearings[k])
+        row, clearance = sum(self.sizes[:k]), port.clearance_of(self.bearings[k])
         others = copy(self)
         others.journals = np.delete(self.journals, np.s_[row : row + self.sizes[k]], axis=0)
         try:
@@ -481,7 +463,7 @@ class RestEquations:
         for bearing, at, move in zip(self.bearings, self.split(p), self.split(step), strict=True):
             for _ in range(_HALVINGS if len(at) > 2 else 0):
                 with suppress(FilmContactError):
-                    force_at(bearing, at + share * move, self.speed)
+                    modal_reduction.force_at(bearing, at + share * move, self.speed)
                     break
                 share *= 0.5
         return share
@@ -490,10 +472,10 @@ class RestEquations:
         """Return the part of a step that leaves every journal at least half of its gap."""
         share = 1.0
         for bearing, at, move in zip(self.bearings, self.split(p), self.split(step), strict=True):
-            if freedoms_of(bearing)[:2] != PLANAR:
+            if port.freedoms_of(bearing)[:2] != PLANAR:
                 continue
             # Balls push back wherever the shaft goes: no gap, but a way on which their force may change much.
-            gap = clearance_of(bearing) if len(at) > 2 else float(minimum_film(bearing, at))
+            gap = port.clearance_of(bearing) if len(at) > 2 else float(port.minimum_film(bearing, at))
             length = math.hypot(*move[:2])
             share = min(share, 0.5 * gap / length if length > 0.5 * gap else 1.0)
         return share

@@ -27,19 +27,9 @@ from ..core.port import Bearings
 from ..core.readable import Drawable, Readable, table_of
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure
+from . import modal_reduction
 from .critical import Crossing, crossings
 from .frequency_dependent import frequency_dependent_motion
-from .modal_reduction import (
-    COUNTS,
-    TOLERANCE,
-    Condensed,
-    TupleWithOperations,
-    counted,
-    models,
-    tally,
-    usual_frequency,
-    whirling,
-)
 from .rotor_equilibrium import RotorEquilibrium, rest
 from .rotor_matrices import (
     HELD,
@@ -235,7 +225,7 @@ def rotor_modes(
     EquilibriumError
         If there is no equilibrium.
     """
-    with counted(*COUNTS) as work:
+    with modal_reduction.counted(*modal_reduction.COUNTS) as work:
         motions = motions_at(rotor, bearings, speed, highest_frequency)
     return replace(whirls_of(motions, highest_frequency), work=dict(work))
 
@@ -247,20 +237,22 @@ def motions_at(
     require_flexible(rotor)
     speed = require_number("speed", speed)
     require_range(highest_frequency)
-    known_to = highest_frequency if highest_frequency < math.inf else usual_frequency(rotor, speed)
+    known_to = (
+        highest_frequency if highest_frequency < math.inf else modal_reduction.usual_frequency(rotor, speed)
+    )
     reach = _FAR * highest_frequency
     found = (
         _motions(model, rest(model.structure, bearings, speed), known_to, reach)
-        for model in models(rotor, known_to)
+        for model in modal_reduction.models(rotor, known_to)
     )
-    return next(motions for motions in found if motions.error <= TOLERANCE)
+    return next(motions for motions in found if motions.error <= modal_reduction.TOLERANCE)
 
 
 def motions_about(rotor: FlexibleRotor, at: RotorEquilibrium) -> RotorModes:
     """Return the same about a rest that is known, with its K and C of the bearings."""
-    known_to = usual_frequency(rotor, at.speed)
-    found = (_motions(model, at, known_to) for model in models(rotor, known_to))
-    return next(motions for motions in found if motions.error <= TOLERANCE)
+    known_to = modal_reduction.usual_frequency(rotor, at.speed)
+    found = (_motions(model, at, known_to) for model in modal_reduction.models(rotor, known_to))
+    return next(motions for motions in found if motions.error <= modal_reduction.TOLERANCE)
 
 
 def require_range(highest_frequency: float) -> None:
@@ -288,7 +280,9 @@ _FAR = 4.0
 """Frequency with synchronous K and C, over the highest one asked for, beyond which motions are left out."""
 
 
-def _motions(model: Condensed, at: RotorEquilibrium, known_to: float, reach: float = math.inf) -> RotorModes:
+def _motions(
+    model: modal_reduction.Condensed, at: RotorEquilibrium, known_to: float, reach: float = math.inf
+) -> RotorModes:
     """Return the motions of a model of a rotor, in the coordinates of the whole.
 
     On frequency-dependent films those beyond a frequency `reach` [rad/s] are left out.
@@ -342,11 +336,13 @@ def bands_of(structure: Structure, turn: float) -> tuple[Band, ...]:
     return (0.5 * turn, 0.0, turn), (2.0 * turn + 1.0, turn, math.inf)
 
 
-def _part(model: Condensed, at: RotorEquilibrium, band: Band, known_to: float, reach: float) -> Part:
+def _part(
+    model: modal_reduction.Condensed, at: RotorEquilibrium, band: Band, known_to: float, reach: float
+) -> Part:
     """Return the eigenvalues of a band; not of motion that nothing holds."""
     frequency, low, high = band
     system = small_motion(model.structure, at, frequency)
-    tally("eigenproblems")
+    modal_reduction.tally("eigenproblems")
     matrix = system.state_matrix()
     values, left, vectors = eig(matrix, left=True)
     shapes = vectors[: len(system.mass)]
@@ -374,7 +370,7 @@ are not followed to K(s): where they end is beyond it too."""
 
 
 def _frequency_dependent_part(
-    model: Condensed,
+    model: modal_reduction.Condensed,
     at: RotorEquilibrium,
     band: Band,
     bounds: tuple[float, float],
@@ -625,7 +621,7 @@ def campbell(
     """
     grid = speeds_in_turn(speeds)
     require_range(highest_frequency)
-    with counted(*COUNTS) as work:
+    with modal_reduction.counted(*modal_reduction.COUNTS) as work:
         points = [rotor_modes(rotor, bearings, float(speed), _BEYOND * highest_frequency) for speed in grid]
     tracks = tracked(points, rotor.assembly.mass)
     values = np.full((len(tracks), len(grid)), complex(math.nan, math.nan))
@@ -652,7 +648,7 @@ def campbell(
 @arguments
 def critical_speeds(
     rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike
-) -> TupleWithOperations[CriticalSpeed]:
+) -> modal_reduction.TupleWithOperations[CriticalSpeed]:
     """Return all damped critical speeds, rising: where a whirl has the frequency of the rotation.
 
     Parameters
@@ -697,14 +693,14 @@ def critical_speeds(
     """
     grid = speeds_in_turn(speeds)
     require_flexible(rotor)
-    rotor = whirling(rotor, bearings)
-    with counted(*COUNTS) as work:
+    rotor = modal_reduction.whirling(rotor, bearings)
+    with modal_reduction.counted(*modal_reduction.COUNTS) as work:
         try:
             found = crossings(rotor, bearings, grid)
         except ConvergenceError as failure:
-            failure.partial = TupleWithOperations(_listed(rotor, failure.partial or ()), work)
+            failure.partial = modal_reduction.TupleWithOperations(_listed(rotor, failure.partial or ()), work)
             raise
-    return TupleWithOperations(_listed(rotor, found), work)
+    return modal_reduction.TupleWithOperations(_listed(rotor, found), work)
 
 
 def _listed(rotor: FlexibleRotor, found: Iterable[Crossing]) -> list[CriticalSpeed]:

@@ -18,16 +18,8 @@ from ..core.port import Bearings
 from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..rotors import FlexibleRotor
+from . import modal_reduction
 from .frequency_dependent import require_all_growing
-from .modal_reduction import (
-    COUNTS,
-    TupleWithOperations,
-    counted,
-    exact_structure,
-    models,
-    usual_frequency,
-    whirling,
-)
 from .rotor_equilibrium import rest
 from .rotor_matrices import oscillates, value_error, whirl_near
 from .rotor_modes import RotorModes, bands_of, directions, motions_at, speeds_in_turn
@@ -137,9 +129,9 @@ def rotor_threshold(
     ConvergenceError
         If that count is another than that of the exponents found.
     """
-    search = _Stability(whirling(rotor, bearings), bearings)
+    search = _Stability(modal_reduction.whirling(rotor, bearings), bearings)
     grid = speeds_in_turn(speeds)
-    with counted(*COUNTS) as work:
+    with modal_reduction.counted(*modal_reduction.COUNTS) as work:
         unstable = search.growing(float(grid[0])) > 0
         found = None if unstable else next(search.changes(grid, report), None)
     report(1.0, "")
@@ -160,7 +152,7 @@ def rotor_threshold(
 @arguments
 def stability_changes(
     rotor: FlexibleRotor, bearings: Bearings, speeds: ArrayLike, *, report: Report = silent
-) -> TupleWithOperations[StabilityChange]:
+) -> modal_reduction.TupleWithOperations[StabilityChange]:
     """Return every speed of a range at which a motion of a rotor on its films begins or ceases to grow.
 
     Parameters
@@ -184,10 +176,14 @@ def stability_changes(
     to n, growth number m + 1 to n, by falling growth, vanishes in between: no whirl has to be followed. The
     speeds have the error of `rotor_threshold`.
     """
-    with counted(*COUNTS) as work:
-        found = list(_Stability(whirling(rotor, bearings), bearings).changes(speeds_in_turn(speeds), report))
+    with modal_reduction.counted(*modal_reduction.COUNTS) as work:
+        found = list(
+            _Stability(modal_reduction.whirling(rotor, bearings), bearings).changes(
+                speeds_in_turn(speeds), report
+            )
+        )
     report(1.0, "")
-    return TupleWithOperations(found, work)
+    return modal_reduction.TupleWithOperations(found, work)
 
 
 def first_growing(rotor: FlexibleRotor, bearings: Bearings, speeds: Array) -> tuple[float, complex] | None:
@@ -196,7 +192,7 @@ def first_growing(rotor: FlexibleRotor, bearings: Bearings, speeds: Array) -> tu
     Growth at the highest speed tells whether there is one, and halving which is the first: growth that ceases
     again within the range goes unseen.
     """
-    rotor = whirling(rotor, bearings)
+    rotor = modal_reduction.whirling(rotor, bearings)
 
     def growing(speed: float) -> NDArray[np.complex128]:
         motions = motions_at(rotor, bearings, speed)
@@ -318,8 +314,8 @@ class _Stability(NamedTuple):
 
         Its eigenpair is that of all coordinates, by inverse iteration. That of divergence has none at 0.
         """
-        whole, place = exact_structure(self.rotor), start.places[k]
-        model = next(models(self.rotor, usual_frequency(self.rotor, root)))
+        whole, place = modal_reduction.exact_structure(self.rotor), start.places[k]
+        model = next(modal_reduction.models(self.rotor, modal_reduction.usual_frequency(self.rotor, root)))
         value, shape = complex(start.motions.eigenvalues[place]), start.motions.shapes[:, place]
         points: list[tuple[float, float]] = []
         speed = start.motions.speed

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import DenseOutput, OdeSolver, Radau
 
+from ..core import port
 from ..core.errors import (
     ContactError,
     ConvergenceError,
@@ -28,19 +29,6 @@ from ..core.errors import (
 )
 from ..core.inputs import arguments
 from ..core.model import Array, Dynamic, Linearization, Model, Stepped, stops
-from ..core.port import (
-    Bearings,
-    Reaction,
-    clearance_of,
-    freedoms_of,
-    in_time,
-    inertial,
-    relative_film,
-    require_turned,
-    require_turning,
-    static_force,
-    takes_steps,
-)
 from ..core.readable import Readable
 from ..core.results import Trajectory
 from ..core.signals import FORCE_OUTPUTS, MOTION_NAMES, Signal, force_names, names, units
@@ -59,7 +47,7 @@ from .threads import one_blas_thread
 @arguments
 def simulate(
     rotor: Dynamic,
-    reaction: Reaction | Stepped | Mapping[str, Reaction | Stepped],
+    reaction: port.Reaction | Stepped | Mapping[str, port.Reaction | Stepped],
     *,
     duration: float,
     samples: int = 1001,
@@ -130,19 +118,19 @@ def simulate(
     require_longest_step(max_step)
     grid = sample_times(duration, samples, times)
     given: Mapping[str, Any] = reaction if isinstance(reaction, Mapping) else {"": reaction}
-    if any(map(takes_steps, given.values())):
+    if any(map(port.takes_steps, given.values())):
         if method is not None:
             raise InputError(f"method must be None for films that step, got {method!r}")
         run = simulate_steps(rotor, given, grid, duration, initial_state, max_step)
         warn_of_thin_films(given, run)
         return run
     by_station = given is reaction
-    films: dict[str, Any] = {name: in_time(film) for name, film in given.items()}
+    films: dict[str, Any] = {name: port.in_time(film) for name, film in given.items()}
     in_c = partial(simulate_rotor, duration=duration, times=grid, rtol=rtol, max_step=max_step)
     if by_station and method is None and takes_forces(rotor, films.values()):
         mounted = mount(rotor, films)
         for film in films.values():
-            require_turning(film, rotor)
+            port.require_turning(film, rotor)
         try:
             return in_c(mounted, initial_state=initial_state)
         except ConvergenceError as failure:
@@ -150,7 +138,7 @@ def simulate(
                 raise
     system = Coupled(rotor, films)
     for film in films.values():
-        require_turning(film, rotor)
+        port.require_turning(film, rotor)
     state = _initial(system, system.initial_state if initial_state is None else initial_state)
     if not by_station and method is None:
         compiled = _compiled(system, films[""], partial(in_c, initial_state=state))
@@ -168,7 +156,7 @@ def simulate(
         raise type(failure)(str(failure), _trajectory(system, kept)) from failure
     whole = _trajectory(system, kept)
     for film in films.values():
-        require_turned(film, rotor, whole.signals)
+        port.require_turned(film, rotor, whole.signals)
     warn_of_thin_films(films, whole)
     return whole
 
@@ -176,7 +164,7 @@ def simulate(
 @arguments
 def time_response(
     rotor: ShaftRotor,
-    bearings: Mapping[str, Reaction],
+    bearings: Mapping[str, port.Reaction],
     forces: Mapping[int, ArrayLike],
     times: ArrayLike,
     *,
@@ -250,7 +238,7 @@ def _require_gap(system: Coupled, t: float, state: Array) -> None:
     if gap <= CONTACT_GAP:
         raise ContactError(
             f"journal{of_station(journal.station)} reached the wall at t = {t:.9g} s: {gap:.3g} of the "
-            f"clearance {clearance_of(journal.reaction)!r} m is left"
+            f"clearance {port.clearance_of(journal.reaction)!r} m is left"
         )
 
 
@@ -369,7 +357,7 @@ NUDGE = 1e-6
 """Velocity, in nominal velocities, at which a derivative is taken where the film has none."""
 
 
-def connect(rotor: Dynamic, films: Bearings) -> MountedRotor:
+def connect(rotor: Dynamic, films: port.Bearings) -> MountedRotor:
     """Return a rotor with films at all of its journals.
 
     Raises
@@ -388,7 +376,7 @@ def connect(rotor: Dynamic, films: Bearings) -> MountedRotor:
     wired(rotor, films, "reaction")
     mounted = MountedRotor(rotor=rotor, stations=tuple(films), bearings=tuple(films.values()))
     if list(films) == [""] and mounted.inputs:
-        taken = force_names(freedoms_of(films[""]))
+        taken = force_names(port.freedoms_of(films[""]))
         raise InputError(f"rotor must have no inputs but {taken}, got {inputs}")
     return mounted
 
@@ -412,7 +400,7 @@ class Coupled:
         Latest time at which `derivative` was asked for; reset it at will.
     """
 
-    def __init__(self, rotor: Dynamic, films: Bearings) -> None:
+    def __init__(self, rotor: Dynamic, films: port.Bearings) -> None:
         self.rotor = rotor
         self.mounted = connect(rotor, films)
         self.work: Counter[str] = Counter(film_evaluations=0, jacobians=0, steps=0, restarts=0)
@@ -454,7 +442,7 @@ class Coupled:
     def closest(self, t: float, x: Array) -> tuple[float, Mount]:
         """Return the least film of all journals, relative to its clearance [1], and the journal."""
         sensed = self.sensed(t, x)
-        films = [(relative_film(m.reaction, sensed[m.motion[: m.size]]), m) for m in self.mounts]
+        films = [(port.relative_film(m.reaction, sensed[m.motion[: m.size]]), m) for m in self.mounts]
         return min(films, key=lambda each: each[0])
 
     def derivative(self, t: float, x: Array) -> Array:
@@ -496,16 +484,16 @@ class Coupled:
                 shown = np.reshape(outputs, (len(time), len(station.reaction.outputs))).T
                 shown = shown if len(inner) else shown[:n]
             else:
-                shown = np.array(static_force(station.reaction, at[:n], at[n : 2 * n], at[-1]))
+                shown = np.array(port.static_force(station.reaction, at[:n], at[n : 2 * n], at[-1]))
             if heavy:
-                forces = station_names(station.station, freedoms_of(station.reaction))[1]
+                forces = station_names(station.station, port.freedoms_of(station.reaction))[1]
                 shown[:n] = [heavy[name] for name in forces]
             rows += [shown, inner]
         return np.concatenate(rows)
 
     def _heavy_forces(self, time: Array, states: Array) -> dict[str, Array]:
         """Return the forces of all films with those of their added masses, by name; none without masses."""
-        if not any(inertial(station.reaction) for station in self.mounts):
+        if not any(port.inertial(station.reaction) for station in self.mounts):
             return {}
         pairs = zip(time, states.T, strict=True)
         outputs = names(self.mounted.outputs)
@@ -571,7 +559,7 @@ class RingContacts(Readable):
 
 
 @arguments
-def ring_contacts(run: Trajectory, ring: Reaction, station: str = "") -> RingContacts:
+def ring_contacts(run: Trajectory, ring: port.Reaction, station: str = "") -> RingContacts:
     """Return the rub contacts of a run, with an error of fourth order in the distance of its samples.
 
     Between two samples the motion is the cubic of their positions and velocities; a contact between two

@@ -15,19 +15,10 @@ from ..core.port import Bearings, freedoms_of
 from ..core.results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, freedom_rows
+from . import rotor_matrices
 from .coefficients import film_coefficients
 from .equilibrium import equilibrium
 from .rotor_equilibrium import RotorEquilibrium, rotor_equilibrium
-from .rotor_matrices import (
-    CONVERGED,
-    PATIENCE,
-    ROUNDED,
-    coefficients_near,
-    dynamics,
-    rest_near,
-    second_order,
-    whirl_near,
-)
 from .rotor_modes import RotorModes, critical_speeds, rotor_modes
 from .rotor_thresholds import rotor_threshold
 from .whirl import GROWTH_ROUNDOFF
@@ -247,7 +238,9 @@ def value_rate(structure: Structure, whirl: Whirl, turning: Bearings) -> complex
     for name, (stiffness, damping) in coefficient_rates(turning, whirl.at, s, STEP).items():
         rows = freedom_rows(structure, name, freedoms_of(whirl.at.coefficients[name]))
         changed = changed + rows.T @ ((stiffness + s * damping) @ (rows @ right))
-    _, slope = dynamics(second_order(structure, rest_near(whirl.at, s)), s)
+    _, slope = rotor_matrices.dynamics(
+        rotor_matrices.second_order(structure, rotor_matrices.rest_near(whirl.at, s)), s
+    )
     return complex(-(left @ changed) / (left @ slope @ right))
 
 
@@ -261,7 +254,7 @@ def coefficient_rates(
     rates = {}
     for name, film in turning.items():
         low, high = (
-            coefficients_near(
+            rotor_matrices.coefficients_near(
                 film_coefficients(film, equilibrium(film, at.loads[name], speed).position, speed), s
             )
             for speed in (at.speed * (1.0 - step), at.speed * (1.0 + step))
@@ -287,16 +280,18 @@ def whirl_of(
     ends: dict[bool, float] = {}
     for count in range(1, _STEPS + 1):
         at = rotor_equilibrium(rotor, bearings, speed)
-        whirl = Whirl(at, *whirl_near(rotor.structure, at, event.frequency(value, speed), value, load))
+        whirl = Whirl(
+            at, *rotor_matrices.whirl_near(rotor.structure, at, event.frequency(value, speed), value, load)
+        )
         lead = event.lead(whirl.value, speed)
-        if abs(lead) < CONVERGED * speed:
+        if abs(lead) < rotor_matrices.CONVERGED * speed:
             return whirl, count
         value, load = whirl.value, whirl.right
         step = -lead / event.rate(value_rate(rotor.structure, whirl, turning))
         ends[lead > 0.0] = speed
         if count > _HALVED and len(ends) == 2:
             step = 0.5 * sum(ends.values()) - speed
-        if count > PATIENCE and abs(step) < ROUNDED * speed:
+        if count > rotor_matrices.PATIENCE and abs(step) < rotor_matrices.ROUNDED * speed:
             return whirl, count
         speed += float(np.clip(step, -0.1 * speed, 0.1 * speed))
     raise ConvergenceError(f"speed near {speed:.6g} rad/s must be found by Newton's method, and was not")

@@ -13,6 +13,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..core import port
 from ..core.dynamic_stiffness import (
     InertialStiffness,
     coefficients_of,
@@ -34,15 +35,6 @@ from ..core.errors import (
 )
 from ..core.inputs import arguments
 from ..core.model import Array
-from ..core.port import (
-    Reaction,
-    at_balanced_temperature,
-    clearance_of,
-    freedoms_of,
-    require_reaction,
-    warn_of_flow,
-    warn_of_load,
-)
 from ..core.readable import Readable
 from ..core.results import (
     Coefficients,
@@ -74,7 +66,7 @@ NO_THRESHOLD: Mapping[str, Any] = dict.fromkeys(
 @one_blas_thread
 @arguments
 def whirl_threshold(
-    reaction: Reaction, load: ArrayLike, mass: float, speed_range: tuple[float, float] | None = None
+    reaction: port.Reaction, load: ArrayLike, mass: float, speed_range: tuple[float, float] | None = None
 ) -> WhirlThreshold:
     """Return the lowest speed at which the static equilibrium loses stability as the speed rises.
 
@@ -118,16 +110,16 @@ def whirl_threshold(
     The range is scanned upwards in steps of 21 % and the first loss of stability is refined to roundoff;
     an instability that begins and ends within one step is not found.
     """
-    require_reaction("reaction", reaction, planar=True)
+    port.require_reaction("reaction", reaction, planar=True)
     require_positive("mass", mass)
     force = checked_load(load)
-    if speed_range is None and not clearance_of(reaction) < math.inf:
+    if speed_range is None and not port.clearance_of(reaction) < math.inf:
         raise InputError(
             "speed_range must be given of a reaction without a clearance, which scales it, got "
             f"{brief(reaction)}"
         )
     speeds = _speeds(
-        *_checked_range(speed_range, math.sqrt(math.hypot(*force) / (clearance_of(reaction) * mass)))
+        *_checked_range(speed_range, math.sqrt(math.hypot(*force) / (port.clearance_of(reaction) * mass)))
     )
     passed: list[str] = []
     search = _settling if states_rest(reaction) else _searched
@@ -211,9 +203,9 @@ def _coefficients_over(reaction: Any, load: Array, speeds: list[float]) -> Itera
             for speed in part:
                 yield film_coefficients(reaction, equilibrium(reaction, load, speed).position, speed)
             continue
-        warn_of_load(reaction, load)
+        port.warn_of_load(reaction, load)
         for at in coefficients_at(reaction, cast(list[Equilibrium], rests)):
-            warn_of_flow(reaction, at.speed)
+            port.warn_of_flow(reaction, at.speed)
             yield at
 
 
@@ -428,9 +420,9 @@ def critical_mass(coefficients: Coefficients) -> CriticalMass:
 
     (the stability criterion in Lund (1987), J. Tribol. 109, 37-41, doi:10.1115/1.3261324).
     """
-    if freedoms_of(coefficients) != PLANAR:
+    if port.freedoms_of(coefficients) != PLANAR:
         raise InputError(
-            f"coefficients must be those of x and y, got those of {', '.join(freedoms_of(coefficients))}"
+            f"coefficients must be those of x and y, got those of {', '.join(port.freedoms_of(coefficients))}"
         )
     told = getattr(coefficients, "dynamic_stiffness", None)
     if isinstance(coefficients, InertialCoefficients) or isinstance(told, InertialStiffness):
@@ -641,6 +633,6 @@ def threshold_near(reaction: Any, load: ArrayLike, mass: float, start: float) ->
 
 
 def _film(reaction: Any, at: Equilibrium) -> FrequencyDependentCoefficients:
-    film = at_balanced_temperature(reaction, at.position, at.speed)
+    film = port.at_balanced_temperature(reaction, at.position, at.speed)
     found = coefficients_of(small_motion(film, at.position, at.speed), at.position, at.speed)
     return cast(FrequencyDependentCoefficients, found)

@@ -12,41 +12,9 @@ from ..bearings.contact import ContactRun
 from ..core.answers import QuestionAnswer
 from ..core.errors import InputError, require_finite
 from ..core.readable import column_scale, label_of
-from .film_charts import (
-    plot_bistable,
-    plot_circumference,
-    plot_coefficients,
-    plot_damper_run,
-    plot_damper_speeds,
-    plot_damper_turn,
-    plot_eccentricity,
-    plot_film,
-    plot_heated_film,
-    plot_phase,
-    plot_transmissibility,
-)
+from . import film_charts, rotor_charts, run_charts
 from .picture import BarsMark, ColorScale, CurveMark, FieldMark, LevelMark, Mark, Picture, PicturePanel
 from .rolling_charts import plot_compliance
-from .rotor_charts import (
-    plot_campbell,
-    plot_clearance_check,
-    plot_log_decrement,
-    plot_orbit_curves,
-    plot_periodic_orbit,
-    plot_separation_margins,
-    plot_shaft_statics,
-    plot_stability_level_one,
-    plot_unbalance_response,
-)
-from .run_charts import (
-    RUNS,
-    plot_full_spectrum,
-    plot_run_amplitudes,
-    plot_run_orbits,
-    plot_run_spectrum,
-    plot_spectrogram,
-    plot_waterfall,
-)
 from .shaft_charts import plot_deflected_orbits, plot_deflected_shape, plot_rotor
 
 GRAM_MILLIMETER = 1e-6
@@ -213,7 +181,7 @@ def _of_trajectory(describe: Describe) -> Describe:
 
 
 def _run(result: Any) -> Picture:
-    return plot_damper_run(result.trajectory.time, result.eccentricity_ratio, result.force)
+    return film_charts.plot_damper_run(result.trajectory.time, result.eccentricity_ratio, result.force)
 
 
 def _scatter(study: Any) -> Picture:
@@ -230,49 +198,55 @@ def _tornado(study: Any) -> Picture:
     )
 
 
-_MODES: dict[str, Describe] = {"campbell": plot_campbell, "log_decrement": plot_log_decrement}
+_MODES: dict[str, Describe] = {
+    "campbell": rotor_charts.plot_campbell,
+    "log_decrement": rotor_charts.plot_log_decrement,
+}
 
-_FILM: dict[str, Describe] = {"pressure": plot_film, "circumference": plot_circumference}
+_FILM: dict[str, Describe] = {
+    "pressure": film_charts.plot_film,
+    "circumference": film_charts.plot_circumference,
+}
 
 PICTURES: dict[str, dict[str, Describe]] = {
-    "Trajectory": RUNS,
-    "CoSimulation": {kind: _of_trajectory(own) for kind, own in RUNS.items()},
-    "RunAmplitudes": {"amplitude": plot_run_amplitudes},
+    "Trajectory": run_charts.RUNS,
+    "CoSimulation": {kind: _of_trajectory(own) for kind, own in run_charts.RUNS.items()},
+    "RunAmplitudes": {"amplitude": run_charts.plot_run_amplitudes},
     "RunSpectra": {
-        "waterfall": plot_waterfall,
-        "spectrogram": plot_spectrogram,
-        "full_spectrum": plot_full_spectrum,
+        "waterfall": run_charts.plot_waterfall,
+        "spectrogram": run_charts.plot_spectrogram,
+        "full_spectrum": run_charts.plot_full_spectrum,
     },
-    "RunOrbits": {"orbits": plot_run_orbits},
-    "RunSpectrum": {"spectrum": plot_run_spectrum},
+    "RunOrbits": {"orbits": run_charts.plot_run_orbits},
+    "RunSpectrum": {"spectrum": run_charts.plot_run_spectrum},
     "DeflectedShape": {"shape": plot_deflected_shape, "orbits": plot_deflected_orbits},
     "Campbell": _MODES,
     "RotorAnswer": {
-        "campbell": lambda found: plot_campbell(found.campbell, critical=found.critical_speeds),
-        "log_decrement": lambda found: plot_log_decrement(found.campbell),
-        "response": lambda found: plot_unbalance_response(found.response),
+        "campbell": lambda found: rotor_charts.plot_campbell(found.campbell, critical=found.critical_speeds),
+        "log_decrement": lambda found: rotor_charts.plot_log_decrement(found.campbell),
+        "response": lambda found: rotor_charts.plot_unbalance_response(found.response),
     },
     "ShaftRotor": {"rotor": plot_rotor},
-    "TabulatedBearing": {"coefficients": plot_coefficients},
-    "ClearanceCheck": {"clearances": plot_clearance_check},
-    "SeparationMargins": {"margins": plot_separation_margins},
-    "ShaftStatics": {"statics": plot_shaft_statics},
-    "StabilityLevelOne": {"stability": plot_stability_level_one},
-    "PeriodicOrbit": {"orbit": plot_periodic_orbit},
-    "OrbitCurve": {"amplitude": lambda found: plot_orbit_curves({"orbits": found})},
+    "TabulatedBearing": {"coefficients": film_charts.plot_coefficients},
+    "ClearanceCheck": {"clearances": rotor_charts.plot_clearance_check},
+    "SeparationMargins": {"margins": rotor_charts.plot_separation_margins},
+    "ShaftStatics": {"statics": rotor_charts.plot_shaft_statics},
+    "StabilityLevelOne": {"stability": rotor_charts.plot_stability_level_one},
+    "PeriodicOrbit": {"orbit": rotor_charts.plot_periodic_orbit},
+    "OrbitCurve": {"amplitude": lambda found: rotor_charts.plot_orbit_curves({"orbits": found})},
     "SynchronousOrbits": {
-        "eccentricity": _synchronous(plot_eccentricity),
-        "transmissibility": _synchronous(plot_transmissibility),
-        "phase": _synchronous(plot_phase),
+        "eccentricity": _synchronous(film_charts.plot_eccentricity),
+        "transmissibility": _synchronous(film_charts.plot_transmissibility),
+        "phase": _synchronous(film_charts.plot_phase),
     },
-    "OrbitsOverSpeed": {"speed": plot_damper_speeds},
-    "BistableMap": {"jumps": plot_bistable},
+    "OrbitsOverSpeed": {"speed": film_charts.plot_damper_speeds},
+    "BistableMap": {"jumps": film_charts.plot_bistable},
     "DamperRun": {"run": _run},
     "FilmState": _FILM,
-    "JFOState": {"pressure": plot_film},
-    "JFOOrbit": {"pressure": plot_film},
-    "HeatedState": {"film": plot_heated_film, "circumference": plot_circumference},
-    "DamperTurn": {"oil": plot_damper_turn},
+    "JFOState": {"pressure": film_charts.plot_film},
+    "JFOOrbit": {"pressure": film_charts.plot_film},
+    "HeatedState": {"film": film_charts.plot_heated_film, "circumference": film_charts.plot_circumference},
+    "DamperTurn": {"oil": film_charts.plot_damper_turn},
     "ContactRun": {"film": plot_contact_run},
     "QuestionAnswer": {"ladder": plot_question},
     "ToleranceStudy": {"histogram": _scatter, "tornado": _tornado},

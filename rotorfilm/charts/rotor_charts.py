@@ -10,18 +10,7 @@ from typing import Any
 import control
 import numpy as np
 
-from ..analysis import (
-    BasinScan,
-    Bifurcation,
-    Campbell,
-    ClearanceCheck,
-    CriticalSpeed,
-    OrbitCurve,
-    PeriodicOrbit,
-    SeparationMargins,
-    ShaftStatics,
-    StabilityLevelOne,
-)
+from .. import analysis
 from ..analysis.api617 import BORDER_DENSITY, BORDER_RATIO, LEAST_DECREMENT
 from ..analysis.clearance_check import SHARE
 from ..analysis.rotor_modes import senses
@@ -53,7 +42,9 @@ def _points(x: Any, y: Any, label: str, marker: str, color: str = "k", size: flo
     return CurveMark(*places, label, color, "", marker=marker, filled=False, size=size)
 
 
-def plot_campbell(chart: Campbell, *, critical: Sequence[CriticalSpeed] | None = None) -> Picture:
+def plot_campbell(
+    chart: analysis.Campbell, *, critical: Sequence[analysis.CriticalSpeed] | None = None
+) -> Picture:
     """Describe whirl frequency [Hz] over speed [rpm], with damping as color and the line of the speed.
 
     A wide ring is whirl that grows by more than round-off.
@@ -98,7 +89,7 @@ def plot_campbell(chart: Campbell, *, critical: Sequence[CriticalSpeed] | None =
     return Picture((panel,), size=(7.4, 5.2))
 
 
-def plot_log_decrement(chart: Campbell) -> Picture:
+def plot_log_decrement(chart: analysis.Campbell) -> Picture:
     """Describe the log decrement of each mode over speed [rpm], from -1 to 3; below zero the whirl grows.
 
     Modes that are beyond at all speeds are named as overdamped in the title. A dashed line is at 0.1, which
@@ -213,7 +204,7 @@ def plot_polar_response(
 MEGANEWTON = 1e6
 
 
-def plot_stability_level_one(result: StabilityLevelOne) -> Picture:
+def plot_stability_level_one(result: analysis.StabilityLevelOne) -> Picture:
     """Describe log decrement over the applied cross-coupling [MN/m], and where the machine is screened."""
     marks: list[Mark] = []
     for k, curve in enumerate(result.curves):
@@ -230,7 +221,7 @@ def plot_stability_level_one(result: StabilityLevelOne) -> Picture:
     return Picture((PicturePanel(marks, *text), _screening(result)), columns=2, size=(4.8, 4.4))
 
 
-def _screening(result: StabilityLevelOne) -> PicturePanel:
+def _screening(result: analysis.StabilityLevelOne) -> PicturePanel:
     """Describe critical speed ratio over density, with the border between regions A and B."""
     density = 0.0 if result.average_density is None else result.average_density
     least, most = BORDER_DENSITY
@@ -253,7 +244,7 @@ def _screening(result: StabilityLevelOne) -> PicturePanel:
     )
 
 
-def plot_separation_margins(result: SeparationMargins) -> Picture:
+def plot_separation_margins(result: analysis.SeparationMargins) -> Picture:
     """Describe amplitudes [um] over speed [rpm], peaks with AF and margin, red where they are too near."""
     marks: list[Mark] = [
         CurveMark(result.speeds / RPM, 1e6 * amplitude, name, f"C{k % 10}", WITHIN[k % len(WITHIN)])
@@ -274,7 +265,7 @@ def plot_separation_margins(result: SeparationMargins) -> Picture:
     return Picture((panel,), size=(7.8, 4.8))
 
 
-def plot_clearance_check(result: ClearanceCheck) -> Picture:
+def plot_clearance_check(result: analysis.ClearanceCheck) -> Picture:
     """Describe the scaled vibration of each place and 75 % of its diametral clearance [um]."""
     names = np.array(result.names, dtype=object)
     marks: list[Mark] = [
@@ -286,7 +277,7 @@ def plot_clearance_check(result: ClearanceCheck) -> Picture:
     return Picture((PicturePanel(marks, "", "peak-to-peak [um]", title),), size=(6.4, 4.2))
 
 
-def plot_shaft_statics(result: ShaftStatics) -> Picture:
+def plot_shaft_statics(result: analysis.ShaftStatics) -> Picture:
     """Describe sag [um], shear force [N] and bending moment [N m] along a shaft [m], in both planes."""
     sag, shear, moment = [], [], []
     for k, name in enumerate("xy"):
@@ -306,16 +297,16 @@ def plot_shaft_statics(result: ShaftStatics) -> Picture:
 
 
 MARKS = {
-    Bifurcation.FOLD: "o",
-    Bifurcation.PERIOD_DOUBLING: "D",
-    Bifurcation.NEIMARK_SACKER: "s",
-    Bifurcation.BRANCH: "^",
+    analysis.Bifurcation.FOLD: "o",
+    analysis.Bifurcation.PERIOD_DOUBLING: "D",
+    analysis.Bifurcation.NEIMARK_SACKER: "s",
+    analysis.Bifurcation.BRANCH: "^",
 }
 """Marker of each bifurcation."""
 
 
 def plot_orbit_curves(
-    curves: Mapping[str, OrbitCurve], *, scale: float = 1.0, parameter: str = "parameter"
+    curves: Mapping[str, analysis.OrbitCurve], *, scale: float = 1.0, parameter: str = "parameter"
 ) -> Picture:
     """Describe the amplitude of periodic orbits over their parameter; unstable dashed, bifurcations marked.
 
@@ -347,7 +338,7 @@ def plot_orbit_curves(
     return Picture((PicturePanel(marks, *text),))
 
 
-def plot_periodic_orbit(orbit: PeriodicOrbit) -> Picture:
+def plot_periodic_orbit(orbit: analysis.PeriodicOrbit) -> Picture:
     """Describe a periodic orbit of each journal inside its clearance circle."""
     paths = orbit.position(np.linspace(0.0, orbit.period, 361)) / orbit.lengths[:, None, None]
     marks = [
@@ -358,7 +349,7 @@ def plot_periodic_orbit(orbit: PeriodicOrbit) -> Picture:
     return Picture((PicturePanel([*marks, circle()], *text, equal=True),), size=(5.6, 5.2))
 
 
-def plot_basin(scan: BasinScan, *, clearance: float) -> Picture:
+def plot_basin(scan: analysis.BasinScan, *, clearance: float) -> Picture:
     """Describe where a rotor goes from initial positions: to rest, or into whirl.
 
     Parameters

@@ -8,16 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..analysis import (
-    RunAmplitudes,
-    RunOrbits,
-    RunSpectra,
-    RunSpectrum,
-    run_amplitudes,
-    run_orbits,
-    run_spectra,
-    run_spectrum,
-)
+from .. import analysis
 from ..analysis.run_spectra import station_of
 from ..core.readable import label_of
 from ..core.results import Trajectory
@@ -55,7 +46,7 @@ def plot_trajectory(run: Trajectory) -> Picture:
     return Picture(panels, columns=2, size=(4.8, 4.4))
 
 
-def plot_run_amplitudes(found: RunAmplitudes) -> Picture:
+def plot_run_amplitudes(found: analysis.RunAmplitudes) -> Picture:
     """Describe overall and 1x amplitude [um] and the phase of 1x over speed [rpm]."""
     speeds = found.speed / RPM
     marks = [
@@ -71,7 +62,7 @@ def plot_run_amplitudes(found: RunAmplitudes) -> Picture:
     return Picture(panels, size=(7.4, 2.9))
 
 
-def plot_waterfall(found: RunSpectra) -> Picture:
+def plot_waterfall(found: analysis.RunSpectra) -> Picture:
     """Describe spectra over speed, one behind the other, backward whirl at negative frequencies.
 
     Dotted lines are whirl at the speed, forward and backward, and at half of it.
@@ -91,7 +82,7 @@ def plot_waterfall(found: RunSpectra) -> Picture:
     return Picture((panel,), size=(8.4, 6.4))
 
 
-def plot_spectrogram(found: RunSpectra) -> Picture:
+def plot_spectrogram(found: analysis.RunSpectra) -> Picture:
     """Describe the same as colors over speed [rpm] and frequency [Hz]; dotted lines are 1x and 1/2x."""
     along, label = _along(found)
     order = np.argsort(along)
@@ -108,14 +99,14 @@ def plot_spectrogram(found: RunSpectra) -> Picture:
     return Picture((PicturePanel(marks, *text, legend="none"),), size=(8.0, 5.0))
 
 
-def _along(found: RunSpectra) -> tuple[np.ndarray, str]:
+def _along(found: analysis.RunSpectra) -> tuple[np.ndarray, str]:
     """Return speeds [rpm] of spectra, or times where the speed is not known or does not change."""
     if np.isfinite(found.speed).all() and np.ptp(found.speed) > 1e-6 * np.abs(found.speed).max():
         return found.speed / RPM, "speed [rpm]"
     return found.time, "time [s]"
 
 
-def plot_full_spectrum(found: RunSpectra, window: int = -1) -> Picture:
+def plot_full_spectrum(found: analysis.RunSpectra, window: int = -1) -> Picture:
     """Describe the full spectrum of one window, the last by default: backward whirl left, forward right.
 
     Parameters
@@ -136,7 +127,7 @@ def plot_full_spectrum(found: RunSpectra, window: int = -1) -> Picture:
     return Picture((PicturePanel(marks, *text, f"Full spectrum{speed}"),), size=(7.4, 4.4))
 
 
-def plot_run_spectrum(found: RunSpectrum) -> Picture:
+def plot_run_spectrum(found: analysis.RunSpectrum) -> Picture:
     """Describe the one-sided spectrum of a signal, with its peak and root mean square in the title."""
     unit = found.units.get("signal_amplitude", "m")
     factor, unit = (1e6, "um") if unit == "m" else (1.0, unit)
@@ -146,7 +137,7 @@ def plot_run_spectrum(found: RunSpectrum) -> Picture:
     return Picture((PicturePanel(marks, *text),), size=(7.4, 4.4))
 
 
-def plot_run_orbits(found: RunOrbits) -> Picture:
+def plot_run_orbits(found: analysis.RunOrbits) -> Picture:
     """Describe orbits at some speeds, a dot where the shaft passes the angle of t = 0 (keyphasor)."""
     panels = []
     for k, speed in enumerate(found.speed):
@@ -186,17 +177,17 @@ def plot_time_windows(run: Trajectory, starts: Sequence[float] = (), station: st
 
 def orbits_over_run(run: Trajectory) -> Picture:
     """Describe six orbits over the speeds of a run."""
-    speeds = run_amplitudes(run).speed
-    return plot_run_orbits(run_orbits(run, np.linspace(speeds.min(), speeds.max(), 6)))
+    speeds = analysis.run_amplitudes(run).speed
+    return plot_run_orbits(analysis.run_orbits(run, np.linspace(speeds.min(), speeds.max(), 6)))
 
 
 RUNS: dict[str, Callable[[Any], Picture]] = {
     "orbit": plot_trajectory,
-    "amplitude": lambda run: plot_run_amplitudes(run_amplitudes(run)),
-    "waterfall": lambda run: plot_waterfall(run_spectra(run)),
-    "spectrogram": lambda run: plot_spectrogram(run_spectra(run, windows=100)),
-    "full_spectrum": lambda run: plot_full_spectrum(run_spectra(run, windows=5)),
-    "spectrum": lambda run: plot_run_spectrum(run_spectrum(run)),
+    "amplitude": lambda run: plot_run_amplitudes(analysis.run_amplitudes(run)),
+    "waterfall": lambda run: plot_waterfall(analysis.run_spectra(run)),
+    "spectrogram": lambda run: plot_spectrogram(analysis.run_spectra(run, windows=100)),
+    "full_spectrum": lambda run: plot_full_spectrum(analysis.run_spectra(run, windows=5)),
+    "spectrum": lambda run: plot_run_spectrum(analysis.run_spectrum(run)),
     "orbits": orbits_over_run,
     "windows": plot_time_windows,
 }

@@ -9,33 +9,27 @@ from typing import TYPE_CHECKING, Annotated
 
 from ..core.frames import write_csv
 from ..core.progress import Report
-from . import printing as console
-from .command import (
-    Argument,
-    CommandOutput,
-    Option,
-    SceneFile,
-    Settings,
-    SignalFile,
-    inside,
-    load_scene,
-    make_room,
-    written_rows,
-)
+from . import command, printing as console
 
 if TYPE_CHECKING:
     from ..scenes.cosimulate_scene import CosimAnswer
 
 
 def run(
-    scene: SceneFile,
+    scene: command.SceneFile,
     report: Report,
-    changes: Settings = None,
-    full: Annotated[bool, Option("--full", help="A rolling ball on its full film, not its law.")] = False,
-    fmus: Annotated[bool, Option("--fmus", help="Rotor and damper as two FMUs, not one system.")] = False,
-    out: SignalFile = None,
-    chart: Annotated[Path | None, Option(help="Draw the motion into this PNG.", metavar="FILE.png")] = None,
-) -> CommandOutput:
+    changes: command.Settings = None,
+    full: Annotated[
+        bool, command.Option("--full", help="A rolling ball on its full film, not its law.")
+    ] = False,
+    fmus: Annotated[
+        bool, command.Option("--fmus", help="Rotor and damper as two FMUs, not one system.")
+    ] = False,
+    out: command.SignalFile = None,
+    chart: Annotated[
+        Path | None, command.Option(help="Draw the motion into this PNG.", metavar="FILE.png")
+    ] = None,
+) -> command.CommandOutput:
     """Follow a scene over time: a lost blade, a run-up, a motor in place of its speed, ground that shakes.
 
     A scene has a [shaft], a [rigid_rotor] on a film or a damper, or a [contact] whose load jumps or swings.
@@ -46,9 +40,9 @@ def run(
     """
     from ..reports.motions import followed
 
-    loaded = load_scene(scene, changes)
-    make_room(out)
-    with inside(scene):
+    loaded = command.load_scene(scene, changes)
+    command.make_room(out)
+    with command.inside(scene):
         found = followed(loaded, full, fmus, report)
     if out is not None:
         write_csv(out, found.signals)
@@ -56,27 +50,27 @@ def run(
         from ..charts import picture_of
 
         picture_of(found.shown).save(chart)
-    shown = partial(console.print_rows, loaded.title, found.rows + written_rows(out))
-    return CommandOutput(found.data, shown, found.failure)
+    shown = partial(console.print_rows, loaded.title, found.rows + command.written_rows(out))
+    return command.CommandOutput(found.data, shown, found.failure)
 
 
 # Rotor and film of a scene coupled as separate FMUs.
 
 
 def cosim(
-    scene: Annotated[Path, Argument(metavar="SCENE.toml", help="Scene file with a rotor.")],
+    scene: Annotated[Path, command.Argument(metavar="SCENE.toml", help="Scene file with a rotor.")],
     report: Report,
-    changes: Settings = None,
+    changes: command.Settings = None,
     scheme: Annotated[
         str,
-        Option(
+        command.Option(
             help="auto, gauss-seidel-0 to -2, jacobi-0 to -2, si-exp, si-exp3, si-memory, newton, adaptive.",
             metavar="NAME",
         ),
     ] = "auto",
-    tolerance: Annotated[float, Option(help="Relative, of auto and adaptive.", min=0.0)] = 1e-2,
-    out: SignalFile = None,
-) -> CommandOutput:
+    tolerance: Annotated[float, command.Option(help="Relative, of auto and adaptive.", min=0.0)] = 1e-2,
+    out: command.SignalFile = None,
+) -> command.CommandOutput:
     """Couple the rotor and the film of a scene as FMUs, and say how well: limit, error, film calls.
 
     Example: rotorfilm cosim examples/friswell.toml --scheme si-exp3 --set "cosimulation.macro_angle=5 deg"
@@ -86,10 +80,10 @@ def cosim(
     from ..reports.motions import signals_of
     from ..scenes.cosimulate_scene import run_scene, scheme_named
 
-    loaded = load_scene(scene, changes)
-    make_room(out)
+    loaded = command.load_scene(scene, changes)
+    command.make_room(out)
     try:
-        with inside(scene):
+        with command.inside(scene):
             answer, signals = run_scene(loaded, scheme_named(scheme, tolerance), report)
     except PartialResultError as error:
         if out is not None and error.partial is not None:
@@ -97,13 +91,13 @@ def cosim(
         raise
     if out is not None:
         write_csv(out, signals_of(signals))
-    return CommandOutput(answer, partial(_print, loaded.title, answer, out))
+    return command.CommandOutput(answer, partial(_print, loaded.title, answer, out))
 
 
 def _print(title: str, answer: CosimAnswer, out: Path | None) -> None:
     for trial in answer.trials:
         console.print_rows("", [(trial.scheme, trial.reason)])
-    console.print_rows(title, cosim_rows(answer) + written_rows(out))
+    console.print_rows(title, cosim_rows(answer) + command.written_rows(out))
 
 
 def cosim_rows(answer: CosimAnswer) -> list[tuple[str, str]]:

@@ -10,15 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..analysis import RotorEquilibrium, coefficients, equal_steps, equilibrium
-from ..analysis.driven_rotor import (
-    RotorAnswers,
-    orbit_amplitude_ratio,
-    propagated,
-    rest_on_film,
-    rest_position,
-    rotor_answers,
-)
+from ..analysis import RotorEquilibrium, coefficients, driven_rotor, equal_steps, equilibrium
 from ..analysis.harmonic_balance import Complex, circles, driven, first_wave, resized, rms
 from ..core.answers import (
     DISAGREEMENT,
@@ -102,9 +94,9 @@ class OrbitRung(CandidateRung):
         made = self.film.prepare()
         # K0 and C0 of a lower rung's rest do as well, since the film's forces have them added.
         lower: SolvedTurn | None = before.solution if before is not None and self.samples else None
-        at = rest_on_film(self.rotor, self.film.reaction) if lower is None else lower.at
-        answers = rotor_answers(self.rotor.structure, at, (), self.samples or LINEAR)
-        orbit, work = answers.linear_orbit(rest := rest_position(at, answers.stations)), 6
+        at = driven_rotor.rest_on_film(self.rotor, self.film.reaction) if lower is None else lower.at
+        answers = driven_rotor.rotor_answers(self.rotor.structure, at, (), self.samples or LINEAR)
+        orbit, work = answers.linear_orbit(rest := driven_rotor.rest_position(at, answers.stations)), 6
         if self.samples:
             start = orbit if lower is None else resized(lower.orbit, answers.harmonics)
             found = driven(answers.on({"": self.film.reaction}), start, rest)
@@ -118,11 +110,13 @@ class OrbitRung(CandidateRung):
         For the map the richer film is the map itself, as long as its own verified error is small enough.
         """
         turn: SolvedTurn = found.solution
-        amplitude_ratio = orbit_amplitude_ratio(turn.orbit, turn.answers.stations, {"": self.film.reaction})
+        amplitude_ratio = driven_rotor.orbit_amplitude_ratio(
+            turn.orbit, turn.answers.stations, {"": self.film.reaction}
+        )
         if amplitude_ratio >= WALL:
             return ErrorEstimate(math.inf, "defect", doubt="the orbit leaves the clearance: not linear")
         calls = 2 * turn.answers.samples + 1
-        doubled = rotor_answers(self.rotor.structure, turn.at, (), calls)
+        doubled = driven_rotor.rotor_answers(self.rotor.structure, turn.at, (), calls)
         bound = self.film.motion_bound(amplitude_ratio)
         if SAFETY * bound < tolerance:
             error, doubt = self._by_defect(doubled, turn, found.value, self.film.reaction)
@@ -134,12 +128,12 @@ class OrbitRung(CandidateRung):
         return ErrorEstimate(error, method, work, bound=self.film.bounded and bool(self.samples), doubt=doubt)
 
     def _by_defect(
-        self, answers: RotorAnswers, turn: SolvedTurn, value: float, rich: Reaction
+        self, answers: driven_rotor.RotorAnswers, turn: SolvedTurn, value: float, rich: Reaction
     ) -> tuple[float, str]:
         own = {"": self.film.reaction}
         balance = answers.on({"": rich}, sloped=own if self.film.bounded else None)
         orbit = resized(turn.orbit, answers.harmonics)
-        step, other = propagated(balance, orbit, own if self.samples else None)
+        step, other = driven_rotor.propagated(balance, orbit, own if self.samples else None)
         error = self.place.change(value, self.place.value(answers, orbit + step))
         apart = rms(step - other) / max(rms(step), 1e-300)
         doubt = ""
@@ -529,7 +523,7 @@ class SolvedTurn:
     """
 
     at: RotorEquilibrium
-    answers: RotorAnswers
+    answers: driven_rotor.RotorAnswers
     orbit: Array
 
 
@@ -554,13 +548,13 @@ class OrbitPlace:
     reference: float
     probes: tuple[str, ...] = ()
 
-    def value(self, answers: RotorAnswers, orbit: Array) -> float:
+    def value(self, answers: driven_rotor.RotorAnswers, orbit: Array) -> float:
         """Return the quantity of an orbit, from its first harmonic."""
         places = self.places[:1] if self.quantity == PHASE else self.places
         waves = (self._wave(answers, orbit, name) for name in places)
         return max(wave_value(self.quantity, wave, answers.speed, self.reference) for wave in waves)
 
-    def _wave(self, answers: RotorAnswers, orbit: Array, name: str) -> Complex:
+    def _wave(self, answers: driven_rotor.RotorAnswers, orbit: Array, name: str) -> Complex:
         if name in self.probes:
             by_force, by_unbalance = answers.probes[name]
             return np.asarray(by_force @ answers.excess(orbit) + by_unbalance)
@@ -568,7 +562,7 @@ class OrbitPlace:
         k = answers.stations.index(name)
         return wave[2 * k : 2 * k + 2]
 
-    def largest_change(self, answers: RotorAnswers, orbit: Array, forces: Array) -> float:
+    def largest_change(self, answers: driven_rotor.RotorAnswers, orbit: Array, forces: Array) -> float:
         """Return the most that first harmonics of forces on the journals (2 m,) [N] change the quantity by.
 
         Relative, or of a phase in radians: the phase of each force is the worst.

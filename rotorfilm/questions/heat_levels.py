@@ -21,19 +21,7 @@ from ..bearings.pads import PadBearing
 from ..core.answers import HEATED, SAFETY, ErrorEstimate, Ladder, RungResult, WorkUnit
 from ..core.errors import RotorfilmError
 from ..core.port import is_warming
-from ..scenes.film_heat import (
-    REFERENCE,
-    FieldLevel,
-    HeatError,
-    HeatSteps,
-    RestJudge,
-    WarmRest,
-    assumed_figures,
-    ends_within,
-    grid_error,
-    richest_profile,
-    uniform_rest,
-)
+from ..scenes import film_heat
 from ..scenes.film_rungs import FilmCandidate, with_losses
 from .variants import FunctionRung, counted_rung
 
@@ -85,14 +73,14 @@ class WarmSolution(NamedTuple):
         What judges that.
     """
 
-    level: HeatLevel | FieldLevel
+    level: HeatLevel | film_heat.FieldLevel
     found: RungResult
     rung: Any = None
-    own: WarmRest | None = None
-    judge: RestJudge | None = None
+    own: film_heat.WarmRest | None = None
+    judge: film_heat.RestJudge | None = None
 
 
-def answer_below(level: HeatLevel | FieldLevel, before: RungResult | None) -> RungResult | None:
+def answer_below(level: HeatLevel | film_heat.FieldLevel, before: RungResult | None) -> RungResult | None:
     """Return the answer of a lower rung on its film, if it is of the same level."""
     solved = None if before is None else before.solution
     return solved.found if isinstance(solved, WarmSolution) and solved.level is level else None
@@ -131,29 +119,29 @@ def uniform_rung(question: Any, level: HeatLevel, film: FilmCandidate, count: in
 
 def _uniform_heat(
     question: Any, bearing: Any, solved: WarmSolution, tolerance: float
-) -> tuple[HeatError, str, str]:
+) -> tuple[film_heat.HeatError, str, str]:
     """Return the error by heat, how that is known, and why to doubt it."""
     judge, level = question.judged(solved), solved.level
     assert isinstance(level, HeatLevel)
     load, speed = judge.load, judge.speed
-    own = start = solved.own or uniform_rest(bearing, load, speed, level.temperature(bearing))
+    own = start = solved.own or film_heat.uniform_rest(bearing, load, speed, level.temperature(bearing))
     if level is FRESH:
-        start = uniform_rest(bearing, load, speed, balance_at(bearing, own))
-    heat, how, doubt = HeatError(judge.apart(own, start), False), BALANCE, ""
+        start = film_heat.uniform_rest(bearing, load, speed, balance_at(bearing, own))
+    heat, how, doubt = film_heat.HeatError(judge.apart(own, start), False), BALANCE, ""
     if heat.error * SAFETY < tolerance and has_field(question, bearing):
-        steps = HeatSteps(bearing, start)
+        steps = film_heat.HeatSteps(bearing, start)
         heat, how, doubt = judge.error(own, steps), steps.name, steps.doubt
     return *with_moving(judge.moving(bearing), heat, how), doubt
 
 
-def balance_at(bearing: JournalBearing, own: WarmRest) -> float:
+def balance_at(bearing: JournalBearing, own: film_heat.WarmRest) -> float:
     """Return the temperature at which the heat of a bearing balances at the place of a rest [K]."""
     temperature: float = bearing.balanced_temperature(own.rest.position, np.zeros(2), own.rest.speed)
     return temperature
 
 
 def with_heat(
-    about: ErrorEstimate, find: Callable[[], tuple[HeatError, str, str]], work: str
+    about: ErrorEstimate, find: Callable[[], tuple[film_heat.HeatError, str, str]], work: str
 ) -> ErrorEstimate:
     """Return an error on a film of one temperature with that by heat, which rungs of a level share.
 
@@ -170,12 +158,12 @@ def with_heat(
     return ErrorEstimate(total, method, {WorkUnit(work): 1}, bound=bound, doubt=doubt, shared=heat.error)
 
 
-def with_moving(moving: float, heat: HeatError, method: str) -> tuple[HeatError, str]:
+def with_moving(moving: float, heat: film_heat.HeatError, method: str) -> tuple[film_heat.HeatError, str]:
     """Return an error by heat and how it is known, with that by heat which moves with the journal."""
     if not moving:
         return heat, method
     bound = heat.bound or moving > heat.error
-    return HeatError(heat.error + moving, bound), f"{method}, moving heat {moving:.2g} lower"
+    return film_heat.HeatError(heat.error + moving, bound), f"{method}, moving heat {moving:.2g} lower"
 
 
 # Rungs of a journal on a film with a temperature field: T2 over it, T3 over and across it.
@@ -184,7 +172,7 @@ def with_moving(moving: float, heat: HeatError, method: str) -> tuple[HeatError,
 # keeps the temperature of the rest.
 
 
-def field_rung(question: Any, level: FieldLevel, film: FilmCandidate) -> FunctionRung:
+def field_rung(question: Any, level: film_heat.FieldLevel, film: FilmCandidate) -> FunctionRung:
     """Return the rung of T2 or T3, the error of which is what steps towards T3 or coarser grids change."""
     bearing = film.reaction
     name = f"{level.name}, JFO" if isinstance(bearing, JFOFilm) else level.name
@@ -197,7 +185,7 @@ def field_rung(question: Any, level: FieldLevel, film: FilmCandidate) -> Functio
         own, judge = found.solution.own, found.solution.judge
         lower = None if before is None else before.solution
 
-        def rest(other: FieldLevel) -> WarmRest:
+        def rest(other: film_heat.FieldLevel) -> film_heat.WarmRest:
             """Return the rest by another level; that of a lower rung is known."""
             if isinstance(lower, WarmSolution) and lower.level == other and lower.judge is judge:
                 assert lower.own is not None  # of a level with a field
@@ -205,13 +193,16 @@ def field_rung(question: Any, level: FieldLevel, film: FilmCandidate) -> Functio
             return other.rest(bearing, judge.load, judge.speed)
 
         if level.layers:
-            grid = grid_error(level, own, rest, judge.apart)
-            heat, method, doubt = HeatError(grid, True), "cells twice as long, half the layers", ""
-        elif richest_profile(bearing).layers == 1:
-            heat, method = HeatError(judge.apart(rest(level.coarser), own), True), "cells twice as long"
+            grid = film_heat.grid_error(level, own, rest, judge.apart)
+            heat, method, doubt = film_heat.HeatError(grid, True), "cells twice as long, half the layers", ""
+        elif film_heat.richest_profile(bearing).layers == 1:
+            heat, method = (
+                film_heat.HeatError(judge.apart(rest(level.coarser), own), True),
+                "cells twice as long",
+            )
             doubt = ""
         else:
-            steps = HeatSteps(bearing, own)
+            steps = film_heat.HeatSteps(bearing, own)
             heat, method, doubt = judge.error(own, steps), steps.name, steps.doubt
         heat, method = with_moving(judge.moving(bearing), heat, method)
         return ErrorEstimate(heat.error, method, bound=heat.bound, doubt=doubt)
@@ -223,31 +214,32 @@ def frozen_rungs(question: Any, film: FilmCandidate) -> tuple[FunctionRung, ...]
     """Return the first rungs of a motion on the film of T3 that keeps the temperature of the rest."""
 
     @cache
-    def rest(level: FieldLevel) -> WarmRest:
+    def rest(level: film_heat.FieldLevel) -> film_heat.WarmRest:
         return level.rest(film.reaction, question.load, question.speed)
 
     @cache
     def frozen() -> FilmCandidate:
         """Return the film at rest; there is no richer one."""
-        own = film.frozen(rest(REFERENCE).reaction)
+        own = film.frozen(rest(film_heat.REFERENCE).reaction)
         return replace(own, rich=own.reaction, rich_name="itself")
 
     def rung(count: int) -> FunctionRung:
         def solve(before: RungResult | None) -> tuple[Any, WarmSolution]:
             own = question.make(frozen(), count)
-            found = own.answer(answer_below(REFERENCE, before))
-            return found.value, WarmSolution(REFERENCE, found, own)
+            found = own.answer(answer_below(film_heat.REFERENCE, before))
+            return found.value, WarmSolution(film_heat.REFERENCE, found, own)
 
         def judge(found: RungResult, before: RungResult | None, tolerance: float) -> ErrorEstimate:
             solved: WarmSolution = found.solution
             about: ErrorEstimate = solved.rung.estimate(solved.found, None, tolerance)
-            grid = question.judge.apart(rest(REFERENCE.coarser), rest(REFERENCE))
+            grid = question.judge.apart(rest(film_heat.REFERENCE.coarser), rest(film_heat.REFERENCE))
             method = f"{about.method}; cells twice as long, {grid:.2g}"
             bound = grid > about.error or about.bound
             return ErrorEstimate(about.error + grid, method, bound=bound, doubt=about.doubt)
 
-        name = f"{REFERENCE.level}, {question.make(replace(film, name=REFERENCE.grid), count).name}"
-        return counted_rung(name, ("answers", name), 2.0 * REFERENCE.seconds, solve, judge)
+        level = film_heat.REFERENCE
+        name = f"{level.level}, {question.make(replace(film, name=level.grid), count).name}"
+        return counted_rung(name, ("answers", name), 2.0 * level.seconds, solve, judge)
 
     return tuple(rung(count) for count in question.counts[:2])
 
@@ -290,17 +282,17 @@ def heat(scene: Scene, question: Any, films: Sequence[FilmCandidate], ladder: La
         for film in known
         for count in question.counts
     ]
-    if has_field(question, quick) and not ends_within(
+    if has_field(question, quick) and not film_heat.ends_within(
         quick
     ):  # beside openings within it only conserved oil is known
         if question.moves:
             rungs += frozen_rungs(question, known[0])
         else:
-            layered = richest_profile(quick).layers > 1
+            layered = film_heat.richest_profile(quick).layers > 1
             levels = [level for level in question.levels if layered or not level.layers]
             rungs += [field_rung(question, level, known[0]) for level in levels]
 
     def assumptions() -> tuple[str, ...]:
-        return assumed_figures(quick, question.moved(known[0]), fields=has_field(question, quick))
+        return film_heat.assumed_figures(quick, question.moved(known[0]), fields=has_field(question, quick))
 
     return replace(ladder, rungs=tuple(rungs), units={}, within=within, assumptions=assumptions)

@@ -15,19 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..core import errors
-from ..core.answers import (
-    SAFETY,
-    ErrorEstimate,
-    Ladder,
-    QuestionAnswer,
-    Rung,
-    RungReport,
-    RungResult,
-    Work,
-    WorkUnit,
-    physics_within,
-)
+from ..core import answers, errors
 from ..core.readable import Readable
 from ..scenes.families import FAMILIES, brought
 
@@ -48,9 +36,9 @@ class NoAnswerError(errors.AbsentError):
 class Meter:
     """Costs of work: units are measured once, when they are first needed."""
 
-    def __init__(self, ladder: Ladder) -> None:
+    def __init__(self, ladder: answers.Ladder) -> None:
         self._units = ladder.units
-        self._costs: dict[WorkUnit, float] = {}
+        self._costs: dict[answers.WorkUnit, float] = {}
 
     def timed(self, call: Callable[[], Any]) -> tuple[Any, float]:
         """Return what a call returns, and how long it took [s]."""
@@ -58,7 +46,7 @@ class Meter:
         result = call()
         return result, perf_counter() - begin
 
-    def cost(self, work: Work, seconds: float) -> float:
+    def cost(self, work: answers.Work, seconds: float) -> float:
         """Return the cost of work [s] that took so long; units without a call share the time."""
         unknown = sum(number for unit, number in work.items() if unit not in self._units)
         for unit in work:
@@ -66,26 +54,26 @@ class Meter:
                 self._costs[unit] = seconds / unknown
         return sum(number * self._unit(unit) for unit, number in work.items())
 
-    def predict(self, work: Work) -> float:
+    def predict(self, work: answers.Work) -> float:
         """Return the cost of work not done yet [s]; nan where a unit was never seen and cannot be tried.
 
         One that says what it costs about is not tried: that might first make a map.
         """
         return sum(number * self._foreseen(unit) for unit, number in work.items())
 
-    def _foreseen(self, unit: WorkUnit) -> float:
+    def _foreseen(self, unit: answers.WorkUnit) -> float:
         if unit in self._costs or math.isnan(unit.nominal):
             return self._unit(unit)
         return unit.nominal
 
-    def _unit(self, unit: WorkUnit) -> float:
+    def _unit(self, unit: answers.WorkUnit) -> float:
         if unit not in self._costs and unit in self._units:
             call = self._units[unit]
             self._costs[unit] = min(self.timed(call)[1] for _ in range(REPEATS))
         return self._costs.get(unit, unit.nominal)
 
 
-def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
+def walk(quantity: str, ladder: answers.Ladder, tolerance: float) -> answers.QuestionAnswer:
     """Return the answer of the first rung that meets the tolerance.
 
     Parameters
@@ -110,10 +98,10 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
     """
     errors.require_positive("tolerance", tolerance)
     meter = Meter(ladder)
-    reports: list[RungReport] = []
+    reports: list[answers.RungReport] = []
     failure: errors.RotorfilmError | None = None
     absent = False
-    before: RungResult | None = None
+    before: answers.RungResult | None = None
     for rung in ladder.rungs:
         if reports and reports[-1].verdict == "chosen":
             break
@@ -123,7 +111,7 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
             or _shared_in_vain(rung, ladder, reports, tolerance)
         )
         if idle:
-            reports.append(RungReport(name=rung.name, verdict="skipped", reason=idle))
+            reports.append(answers.RungReport(name=rung.name, verdict="skipped", reason=idle))
             continue
         try:
             report, before = _tried(rung, before, meter, tolerance)
@@ -137,7 +125,7 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
                 failure, absent = error, True
             elif not absent:
                 failure = error
-            reports.append(RungReport(name=rung.name, verdict="refused", reason=str(error)))
+            reports.append(answers.RungReport(name=rung.name, verdict="refused", reason=str(error)))
     if absent:
         # By the richest model that was tried; what cheaper ones say instead is no answer.
         assert failure is not None
@@ -146,8 +134,8 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
 
 
 def _tried(
-    rung: Rung, before: RungResult | None, meter: Meter, tolerance: float
-) -> tuple[RungReport, RungResult]:
+    rung: answers.Rung, before: answers.RungResult | None, meter: Meter, tolerance: float
+) -> tuple[answers.RungReport, answers.RungResult]:
     with warnings.catch_warnings(action="ignore", category=errors.ValidityWarning):
         # A rung outside its range is judged by its error, not by its warnings.
         found, seconds = meter.timed(lambda: rung.answer(before))
@@ -155,7 +143,7 @@ def _tried(
         about, seconds = meter.timed(lambda: rung.estimate(found, before, tolerance))
         estimate_cost = meter.cost(about.work, seconds)
     reason = _why_refused(about, tolerance)
-    report = RungReport(
+    report = answers.RungReport(
         name=rung.name,
         verdict="refused" if reason else "chosen",
         reason=reason,
@@ -172,15 +160,15 @@ def _tried(
     return report, found
 
 
-def _why_refused(about: ErrorEstimate, tolerance: float) -> str:
+def _why_refused(about: answers.ErrorEstimate, tolerance: float) -> str:
     if about.doubt:
         return about.doubt
-    if SAFETY * about.error < tolerance:
+    if answers.SAFETY * about.error < tolerance:
         return ""
-    return f"{SAFETY:g} x {about.error:.2g} is above the tolerance {tolerance:.3g}"
+    return f"{answers.SAFETY:g} x {about.error:.2g} is above the tolerance {tolerance:.3g}"
 
 
-def _refused_more_accurate(rung: Rung, reports: Sequence[RungReport]) -> str | None:
+def _refused_more_accurate(rung: answers.Rung, reports: Sequence[answers.RungReport]) -> str | None:
     """Return why a rung need not be tried: one that is known to be closer was refused."""
     for report in reports:
         if not report.doubtful and rung.prior >= (report.error_estimate or math.inf):
@@ -188,7 +176,9 @@ def _refused_more_accurate(rung: Rung, reports: Sequence[RungReport]) -> str | N
     return None
 
 
-def _refined_in_vain(rung: Rung, ladder: Ladder, reports: Sequence[RungReport]) -> str | None:
+def _refined_in_vain(
+    rung: answers.Rung, ladder: answers.Ladder, reports: Sequence[answers.RungReport]
+) -> str | None:
     """Return why finer steps do not help: the last refinement of the same model changed nothing."""
     coarser = [r for other, r in zip(ladder.rungs, reports, strict=False) if _refines_the_same(rung, other)]
     known = [r for r in coarser if r.error_estimate is not None and math.isfinite(r.error_estimate)][-2:]
@@ -202,34 +192,34 @@ def _refined_in_vain(rung: Rung, ladder: Ladder, reports: Sequence[RungReport]) 
 
 
 def _shared_in_vain(
-    rung: Rung, ladder: Ladder, reports: Sequence[RungReport], tolerance: float
+    rung: answers.Rung, ladder: answers.Ladder, reports: Sequence[answers.RungReport], tolerance: float
 ) -> str | None:
     """Return why a rung cannot do: the part of the error that it shares with another is too large."""
     for other, report in zip(ladder.rungs, reports, strict=False):
         same = rung.shares is not None and other.shares is rung.shares
         if same and math.isinf(report.shared_error):
             return f"as {report.name}: {report.reason}"
-        if same and SAFETY * report.shared_error >= tolerance:
+        if same and answers.SAFETY * report.shared_error >= tolerance:
             return f"shares an error of {report.shared_error:.2g} with {report.name}"
     return None
 
 
-def _refines_the_same(rung: Rung, other: Rung) -> bool:
+def _refines_the_same(rung: answers.Rung, other: answers.Rung) -> bool:
     ours, theirs = rung.refines, other.refines
     return bool(ours) and len(ours) == len(theirs) and all(a is b for a, b in zip(ours, theirs, strict=True))
 
 
 def _answer(
     quantity: str,
-    ladder: Ladder,
+    ladder: answers.Ladder,
     meter: Meter,
-    reports: list[RungReport],
+    reports: list[answers.RungReport],
     tolerance: float,
-    last: RungResult | errors.RotorfilmError | None,
-) -> QuestionAnswer:
+    last: answers.RungResult | errors.RotorfilmError | None,
+) -> answers.QuestionAnswer:
     reports = _beside_richer(reports, ladder.distance)
     tried = [report for report in reports if report.error_estimate is not None]
-    if not isinstance(last, RungResult):
+    if not isinstance(last, answers.RungResult):
         assert last is not None  # a ladder has at least one rung, and that was asked
         raise last
     best = tried[-1]
@@ -238,8 +228,8 @@ def _answer(
     above = ladder.rungs[len(reports) :]
     upper = above[0] if best.verdict == "chosen" and above else None
     next_cost = meter.predict(upper.expected(last.work)) if upper is not None else math.nan
-    waiting = [RungReport(name=rung.name, verdict="not needed") for rung in above]
-    return QuestionAnswer(
+    waiting = [answers.RungReport(name=rung.name, verdict="not needed") for rung in above]
+    return answers.QuestionAnswer(
         quantity=quantity,
         value=best.value,
         unit=ladder.unit,
@@ -254,12 +244,14 @@ def _answer(
         next_cost=next_cost if math.isfinite(next_cost) else None,
         rungs=(*reports, *waiting),
         remarks=ladder.remarks,
-        within=physics_within(ladder.within, ladder.remarks, tolerance),
+        within=answers.physics_within(ladder.within, ladder.remarks, tolerance),
         assumptions=ladder.assumptions(),
     )
 
 
-def _beside_richer(reports: Sequence[RungReport], distance: Callable[[Any, Any], float]) -> list[RungReport]:
+def _beside_richer(
+    reports: Sequence[answers.RungReport], distance: Callable[[Any, Any], float]
+) -> list[answers.RungReport]:
     """Return the reports, in which no rung keeps an estimate that a richer one contradicts.
 
     Two values that are farther apart than both estimates are contradicting each other. The cheaper one is
@@ -283,7 +275,7 @@ def _beside_richer(reports: Sequence[RungReport], distance: Callable[[Any, Any],
     return told
 
 
-def _trusted_error(report: RungReport) -> float:
+def _trusted_error(report: answers.RungReport) -> float:
     """Return the error by which the closest of refused rungs is found: one in doubt comes last."""
     error = report.error_estimate
     return math.inf if error is None or report.doubtful or not math.isfinite(error) else error
@@ -306,13 +298,15 @@ LADDERS = {
 """Places of the ladders of a family, by the name of its table, where the family itself names none."""
 
 
-def ladders_of(name: str) -> Mapping[str, Callable[[Scene, str], Ladder]]:
+def ladders_of(name: str) -> Mapping[str, Callable[[Scene, str], answers.Ladder]]:
     """Return the ladders of a family by quantity: calls that take a scene and the quantity."""
-    found: Mapping[str, Callable[[Scene, str], Ladder]] = brought(FAMILIES[name].ladders or LADDERS[name])
+    found: Mapping[str, Callable[[Scene, str], answers.Ladder]] = brought(
+        FAMILIES[name].ladders or LADDERS[name]
+    )
     return found
 
 
-def ladder_of(scene: Scene) -> Ladder:
+def ladder_of(scene: Scene) -> answers.Ladder:
     """Return the ladder of a scene's question.
 
     Raises
@@ -337,7 +331,7 @@ def ladder_of(scene: Scene) -> Ladder:
     )
 
 
-def ask(scene: Scene) -> QuestionAnswer:
+def ask(scene: Scene) -> answers.QuestionAnswer:
     """Return the answer to a scene's question; see `rotorfilm.questions.walk.walk`."""
     asked = scene.required("question", "a ladder")
     return walk(asked.quantity, ladder_of(scene), asked.tolerance)

@@ -10,26 +10,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..core import port
 from ..core.errors import ConvergenceError, InputError, require_inside, require_kind
 from ..core.inputs import arguments, quantities
 from ..core.model import Array, Dynamic, Linearization, Model, static_linearization
-from ..core.port import (
-    Bearings,
-    Force,
-    Reaction,
-    clearance_of,
-    freedoms_of,
-    has_wall,
-    in_time,
-    inertial,
-    mass_of,
-    prepared_force,
-    require_reaction,
-    require_reactions,
-    require_terminals,
-    require_turning,
-    static_slopes,
-)
 from ..core.signals import PLANAR, Signal, indices, names
 from ..native.spec import HasKernel, NativeSpec
 from .prescribed_speed import SpeedInputRotor
@@ -58,11 +42,11 @@ class Mount(NamedTuple):
     """
 
     station: str
-    reaction: Reaction
+    reaction: port.Reaction
     motion: list[int]
     force: list[int]
     inner: slice
-    call: Force | None
+    call: port.Force | None
     alone: bool
     clearance: float
 
@@ -110,7 +94,7 @@ class Mount(NamedTuple):
         """Return the derivatives of the reaction at the same arguments."""
         if self.call is None or not self.alone:
             return self.reaction.linearization(t, x[self.inner], at)
-        return static_linearization(static_slopes(self.reaction, at[:2], at[2:4], at[4]))
+        return static_linearization(port.static_slopes(self.reaction, at[:2], at[2:4], at[4]))
 
 
 class UnbalancePlane(NamedTuple):
@@ -130,7 +114,7 @@ class UnbalancePlane(NamedTuple):
     unbalance_angle: float
 
 
-def wired(rotor: Model, bearings: Bearings, name: str) -> list[Mount]:
+def wired(rotor: Model, bearings: port.Bearings, name: str) -> list[Mount]:
     """Return reactions in the stations of a rotor.
 
     Parameters
@@ -151,9 +135,9 @@ def wired(rotor: Model, bearings: Bearings, name: str) -> list[Mount]:
     mounts, last = [], np.size(getattr(rotor, "initial_state", ()))
     for station, bearing in bearings.items():
         argument = f"{name}[{station!r}]" if station else name
-        require_reaction(argument, bearing, heavy=True, over_time=True)
-        require_terminals(argument, bearing)
-        freedoms, states = freedoms_of(bearing), len(bearing.states)
+        port.require_reaction(argument, bearing, heavy=True, over_time=True)
+        port.require_terminals(argument, bearing)
+        freedoms, states = port.freedoms_of(bearing), len(bearing.states)
         motion, force = station_names(station, freedoms)
         mounts.append(
             Mount(
@@ -162,9 +146,11 @@ def wired(rotor: Model, bearings: Bearings, name: str) -> list[Mount]:
                 motion=indices("rotor must have the outputs", outputs, [*motion, "speed"]),
                 force=indices("rotor must have the inputs", inputs, force),
                 inner=slice(last, last + states),
-                call=prepared_force(bearing) if freedoms == PLANAR and not states else None,
+                call=port.prepared_force(bearing) if freedoms == PLANAR and not states else None,
                 alone=len(bearing.outputs) == len(freedoms),
-                clearance=np.inf if has_wall(bearing) or freedoms[:2] != PLANAR else clearance_of(bearing),
+                clearance=np.inf
+                if port.has_wall(bearing) or freedoms[:2] != PLANAR
+                else port.clearance_of(bearing),
             )
         )
         last += states
@@ -198,7 +184,7 @@ class MountedRotor(AroundRotor):
 
     rotor: Dynamic
     stations: tuple[str, ...]
-    bearings: tuple[Reaction, ...]
+    bearings: tuple[port.Reaction, ...]
     planes: tuple[UnbalancePlane, ...] = ()
 
     def __post_init__(self) -> None:
@@ -215,13 +201,13 @@ class MountedRotor(AroundRotor):
         return self.rotor.bare if isinstance(self.rotor, MountedRotor) else self.rotor
 
     @property
-    def all_bearings(self) -> dict[str, Reaction]:
+    def all_bearings(self) -> dict[str, port.Reaction]:
         """All bearings by station in the order of their states, also of a rotor mounted in several steps."""
         before = self.rotor.all_bearings if isinstance(self.rotor, MountedRotor) else {}
         return {**before, **self._own_bearings}
 
     @property
-    def _own_bearings(self) -> dict[str, Reaction]:
+    def _own_bearings(self) -> dict[str, port.Reaction]:
         return dict(zip(self.stations, self.bearings, strict=True))
 
     @property
@@ -324,7 +310,7 @@ class MountedRotor(AroundRotor):
         found = []
         for mount in self.mounts:
             at, n = sensed[mount.motion], mount.size
-            found.append(mass_of(mount.reaction, at[:n], at[n : 2 * n], at[-1]))
+            found.append(port.mass_of(mount.reaction, at[:n], at[n : 2 * n], at[-1]))
         return block_diagonal(found)
 
     def _inputs(self, forces: Sequence[Array], u: ArrayLike) -> Array:
@@ -350,7 +336,7 @@ class MountedRotor(AroundRotor):
 
     @cached_property
     def _heavy(self) -> bool:
-        return any(inertial(bearing) is not None for bearing in self.bearings)
+        return any(port.inertial(bearing) is not None for bearing in self.bearings)
 
     @cached_property
     def _taken(self) -> list[int]:
@@ -448,7 +434,7 @@ def _with_mass_slopes(
     mount: Mount, part: Linearization, sensed: Array, rotor: Linearization, rates: Array
 ) -> Linearization:
     """Return the derivatives of a reaction with those of its added mass times the present acceleration."""
-    heavy = inertial(mount.reaction)
+    heavy = port.inertial(mount.reaction)
     if heavy is None:
         return part
     at, n = sensed[mount.motion], mount.size
@@ -474,7 +460,7 @@ def block_diagonal(blocks: Sequence[Array]) -> Array:
 
 
 @arguments
-def mount(rotor: Dynamic, bearings: Bearings) -> MountedRotor:
+def mount(rotor: Dynamic, bearings: port.Bearings) -> MountedRotor:
     """Return a rotor with bearings in some of its stations.
 
     If only the station without a name is left, `simulate`, `cosimulate` and `closed_loop` accept the result
@@ -494,11 +480,11 @@ def mount(rotor: Dynamic, bearings: Bearings) -> MountedRotor:
     InputError
         If the rotor has no such station, or a bearing does not fit.
     """
-    require_reactions("bearings", bearings, heavy=True)
+    port.require_reactions("bearings", bearings, heavy=True)
     for bearing in bearings.values():
-        require_turning(bearing, rotor)
+        port.require_turning(bearing, rotor)
     return MountedRotor(
-        rotor=rotor, stations=tuple(bearings), bearings=tuple(map(in_time, bearings.values()))
+        rotor=rotor, stations=tuple(bearings), bearings=tuple(map(port.in_time, bearings.values()))
     )
 
 
@@ -522,7 +508,7 @@ KINDS = (
 
 def system_kernel(
     rotor: Dynamic,
-    bearings: Bearings,
+    bearings: port.Bearings,
     *,
     carried: Sequence[int],
     free: Sequence[int],

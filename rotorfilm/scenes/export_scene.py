@@ -9,23 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .. import rotors
 from ..analysis import RotorEquilibrium, equilibrium, rotor_equilibrium
 from ..core.files import written_together
 from ..core.inputs import arguments
 from ..core.port import Reaction, from_rest
 from ..fmu import export_fmu, export_ssp
-from ..rotors import (
-    FlexibleRotor,
-    MountedRotor,
-    Reduction,
-    ShaftRotor,
-    SpeedInputRotor,
-    Station,
-    SteadyRotor,
-    UnbalancePlane,
-    mount,
-    reduce_rotor,
-)
 from ..rotors.force_law import LawRotor
 from ..rotors.rigid import RigidRotor
 from ..rotors.structure import station_names
@@ -206,7 +195,7 @@ def _damped_rotor(scene: Scene) -> tuple[Any, float, float]:
         scene = scene.with_tables(damper=replace(table, film=MapSqueeze()))
     models = damper_models(scene)
     support: Any = models.support
-    return mount(models.rotor, {"": support}), models.step, scene.speed
+    return rotors.mount(models.rotor, {"": support}), models.step, scene.speed
 
 
 def system_speed(scene: Scene) -> float:
@@ -222,15 +211,15 @@ def _shaft_system(scene: Scene, tolerance: float) -> tuple[Any, float, float]:
     highest = scene.shaft.highest_frequency or 2.0 * scene.shaft.speeds.last
     whole = scene.shaft.build(speed=speed, extra=added_unbalance(scene))
     bearings = scene.shaft.build_bearings()
-    reduced = reduce_rotor(whole, frequency=highest, tolerance=tolerance).rotor
+    reduced = rotors.reduce_rotor(whole, frequency=highest, tolerance=tolerance).rotor
     rotor, at = at_rest(reduced, bearings, speed)
     step = scene.cosimulation.macro_angle / (abs(speed) or 1.0)
-    return mount(rotor, from_shaft_rest(bearings, at)), step, speed
+    return rotors.mount(rotor, from_shaft_rest(bearings, at)), step, speed
 
 
 @arguments
 def export_rotor_fmu(
-    rotor: FlexibleRotor,
+    rotor: rotors.FlexibleRotor,
     path: str | Path,
     version: str = "2.0",
     *,
@@ -239,7 +228,7 @@ def export_rotor_fmu(
     bearings: Mapping[str, Reaction] | None = None,
     platforms: str = "host",
     component: str = "rotor",
-) -> Reduction:
+) -> rotors.Reduction:
     """Write a rotor at constant speed as a native FMU, reduced as far as a tolerance allows.
 
     Parameters
@@ -270,7 +259,7 @@ def export_rotor_fmu(
     EquilibriumError
         If there is no equilibrium in the bearings.
     """
-    reduction = reduce_rotor(rotor, frequency=frequency, tolerance=tolerance)
+    reduction = rotors.reduce_rotor(rotor, frequency=frequency, tolerance=tolerance)
     start = {}
     if bearings is not None:
         resting, at = at_rest(reduction.rotor, bearings, float(reduction.rotor.profile.speed(0.0)))
@@ -280,14 +269,14 @@ def export_rotor_fmu(
             for station, load in at.loads.items()
             for name, value in zip(station_names(station)[1], load.tolist(), strict=True)
         }
-    model = SteadyRotor(rotor=reduction.rotor)
+    model = rotors.SteadyRotor(rotor=reduction.rotor)
     export_fmu(model, path, version, platforms=platforms, component=component, start=start)
     return reduction
 
 
 @arguments
 def export_machine_fmu(
-    rotor: ShaftRotor,
+    rotor: rotors.ShaftRotor,
     bearings: Mapping[str, Reaction],
     path: str | Path,
     version: str = "2.0",
@@ -299,7 +288,7 @@ def export_machine_fmu(
     stop_time: float = 0.1,
     step_size: float = 1e-4,
     speed_input: bool = False,
-) -> MountedRotor:
+) -> rotors.MountedRotor:
     """Write a rotor with its bearings as one FMU, at rest in them at its speed.
 
     Outputs are the motions of its bearings and probes by their names, and the forces of the bearings.
@@ -341,16 +330,18 @@ def export_machine_fmu(
         phasor = one.unbalance * np.exp(1j * one.unbalance_angle)
         sums[one.node] = sums.get(one.node, 0.0) + phasor
     planes = tuple(
-        UnbalancePlane(f"plane_{node}", float(abs(sum_)), float(np.angle(sum_)))
+        rotors.UnbalancePlane(f"plane_{node}", float(abs(sum_)), float(np.angle(sum_)))
         for node, sum_ in sums.items()
     )
-    further = (Station(node=node, name=plane.station) for node, plane in zip(sums, planes, strict=True))
+    further = (
+        rotors.Station(node=node, name=plane.station) for node, plane in zip(sums, planes, strict=True)
+    )
     whole = replace(rotor, stations=(*rotor.stations, *further))
-    reduced = reduce_rotor(whole, frequency=frequency, tolerance=tolerance).rotor
+    reduced = rotors.reduce_rotor(whole, frequency=frequency, tolerance=tolerance).rotor
     speed = float(reduced.profile.speed(0.0))
     resting, at = at_rest(reduced, bearings, speed)
-    turning = SpeedInputRotor(rotor=replace(resting, speed=speed)) if speed_input else resting
-    model = mount(turning, from_shaft_rest(bearings, at))
+    turning = rotors.SpeedInputRotor(rotor=replace(resting, speed=speed)) if speed_input else resting
+    model = rotors.mount(turning, from_shaft_rest(bearings, at))
     if model.native() is not None:  # in Python the unbalances stay those of the rotor
         model = replace(model, planes=planes)
     export_fmu(

@@ -15,19 +15,11 @@ from ..analysis.equilibrium import MAXIMUM_ECCENTRICITY
 from ..bearings import journal
 from ..bearings.films.law import FilmLaw
 from ..bearings.reaction import InertialModel
+from ..core import port
 from ..core.answers import DISAGREEMENT, WorkUnit
 from ..core.errors import InputError, require_vector
 from ..core.model import Array
-from ..core.port import (
-    PlanarReaction,
-    Tangent,
-    has_wall,
-    inertial,
-    largest_eccentricity_ratio,
-    minimum_film,
-    prepared_tangent,
-    relative_film,
-)
+from ..core.port import largest_eccentricity_ratio, minimum_film
 from ..core.results import Equilibrium
 from .journal_tables import has_map
 
@@ -338,13 +330,13 @@ class FilmCandidate:
         own = self.reaction
         x, y = 0.3 * minimum_radial_clearance(own), 0.4 * minimum_radial_clearance(own)
         defects = {self.defects(smooth=k): one_defect(self, speed, smooth=k) for k in (False, True)}
-        return {self.tangents: lambda: prepared_tangent(own)(x, y, 0.0, 0.0, speed), **defects}
+        return {self.tangents: lambda: port.prepared_tangent(own)(x, y, 0.0, 0.0, speed), **defects}
 
     def batch_units(self, speed: float) -> dict[WorkUnit, Callable[[], object]]:
         """Return the same for states all round a turn."""
         position, still = np.array([0.3, 0.4]) * minimum_radial_clearance(self.reaction), np.zeros(2)
 
-        def sampled(reaction: PlanarReaction) -> Callable[[], object]:
+        def sampled(reaction: port.PlanarReaction) -> Callable[[], object]:
             return lambda: (reaction.force(position, still, speed), reaction.jacobian(position, still, speed))
 
         return {self.tangents: sampled(self.reaction), self.defects(smooth=False): sampled(self.rich)}
@@ -599,7 +591,7 @@ def attitude(position: Array, load: Array, speed: float) -> float:
     return math.copysign(1.0, speed) * turned
 
 
-def minimum_radial_clearance(bearing: PlanarReaction) -> float:
+def minimum_radial_clearance(bearing: port.PlanarReaction) -> float:
     """Return how far a journal may go from the center in any direction [m]."""
     return float(minimum_film(bearing, np.zeros(2)))
 
@@ -686,7 +678,7 @@ NEUTRAL = 1e-9
 
 
 def tangent(
-    bearing: PlanarReaction,
+    bearing: port.PlanarReaction,
     position: Array,
     speed: float,
     *,
@@ -710,7 +702,7 @@ def tangent(
     if not smooth:
         return bearing.force(position, rest, speed), slopes
     distance = float(np.hypot(*position)) if curvature_distance is None else curvature_distance
-    thin = math.sqrt(relative_film(bearing, position))
+    thin = math.sqrt(port.relative_film(bearing, position))
     rate = STEP * min(1.0, 2.0 * thin) * 0.5 * abs(speed) * distance
     velocities = rate * np.concatenate([np.zeros((2, 1)), *(k * np.eye(2) for k in (-2, -1, 1, 2))], axis=1)
     force = bearing.force(np.repeat(position[:, None], 9, axis=1), velocities, np.full(9, speed))
@@ -816,7 +808,7 @@ class Counted(InertialModel):
         Reaction without states.
     """
 
-    def __init__(self, reaction: PlanarReaction) -> None:
+    def __init__(self, reaction: port.PlanarReaction) -> None:
         self._reaction = reaction
         self.forces = 0
         self.tangents = 0
@@ -853,7 +845,7 @@ class Counted(InertialModel):
     @property
     def has_inertia(self) -> bool:
         """Whether the reaction has an added mass, which comes with its forces."""
-        return inertial(self._reaction) is not None
+        return port.inertial(self._reaction) is not None
 
     def mass(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
         """Return the added mass [kg], shape (2, 2, ...)."""
@@ -865,13 +857,13 @@ class Counted(InertialModel):
 
     def require_range(self, frequency: float) -> None:
         """Warn, or raise InputError, where the inertia of the reaction ends, at a frequency [rad/s]."""
-        heavy = inertial(self._reaction)
+        heavy = port.inertial(self._reaction)
         if heavy is not None:
             heavy.require_range(frequency)
 
-    def prepare_tangent(self) -> Tangent:
+    def prepare_tangent(self) -> port.Tangent:
         """Return force and derivatives as a function of five numbers."""
-        call = prepared_tangent(self._reaction)
+        call = port.prepared_tangent(self._reaction)
 
         def tangent(
             x: float, y: float, vx: float, vy: float, speed: float
@@ -890,6 +882,6 @@ class WorkCountingWalledReaction(Counted):
         return minimum_film(self._reaction, require_vector("position", position))
 
 
-def counted_calls(reaction: PlanarReaction) -> Counted:
+def counted_calls(reaction: port.PlanarReaction) -> Counted:
     """Return a reaction that counts its evaluations."""
-    return (WorkCountingWalledReaction if has_wall(reaction) else Counted)(reaction)
+    return (WorkCountingWalledReaction if port.has_wall(reaction) else Counted)(reaction)

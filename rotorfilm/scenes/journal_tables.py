@@ -31,27 +31,15 @@ from ..core.limits import FUNCTIONS, MAP_NODES
 from ..core.progress import Report
 from ..core.readable import Readable
 from ..core.results import Equilibrium
+from . import reading
 from .families import isothermal, messages, remarks_of
-from .reading import (
-    COUNTS,
-    Count,
-    Keyed,
-    Quantity,
-    Several,
-    Variant,
-    counts,
-    fields_of,
-    keys_of,
-    made_from,
-    takes,
-)
 from .shared_tables import Lubricant, OiledTable
 from .turbulent import AUTO, effect_of, read_turbulence, turbulent_remarks, without_oil
 
-ORDER = Count(FUNCTIONS)
+ORDER = reading.Count(FUNCTIONS)
 
 
-@takes([ORDER, (ORDER, {"inf": None})])
+@reading.takes([ORDER, (ORDER, {"inf": None})])
 def read_order(where: str, value: Any) -> tuple[int, int | None]:
     """Read an order [n, m] of the splitting method; m may be "inf", all axial modes."""
     if not isinstance(value, list) or len(value) != 2:
@@ -60,14 +48,14 @@ def read_order(where: str, value: Any) -> tuple[int, int | None]:
     return ORDER(f"{where}[0]", n), None if m == "inf" else ORDER(f"{where}[1]", m)
 
 
-NODES = counts(("over", "turning", "moving"), MAP_NODES)
+NODES = reading.counts(("over", "turning", "moving"), MAP_NODES)
 """Reader of the nodes of a map with openings."""
 
-RUPTURES: dict[str, Callable[[], Keyed[Any]]] = {
-    "fixed": lambda: keys_of(journal.FixedArc, "start", "extent"),
-    "rotating": lambda: keys_of(journal.RotatingArc),
-    "reynolds": lambda: keys_of(journal.ReynoldsArc, "start"),
-    "complementarity": lambda: keys_of(journal.ComplementarityArc),
+RUPTURES: dict[str, Callable[[], reading.Keyed[Any]]] = {
+    "fixed": lambda: reading.keys_of(journal.FixedArc, "start", "extent"),
+    "rotating": lambda: reading.keys_of(journal.RotatingArc),
+    "reynolds": lambda: reading.keys_of(journal.ReynoldsArc, "start"),
+    "complementarity": lambda: reading.keys_of(journal.ComplementarityArc),
 }
 """`rupture = {kind = "fixed", ...}`: rupture rules of the splitting film by their names."""
 
@@ -98,26 +86,26 @@ class ConservedOil:
         require_conserved_cells(self.cells)
 
 
-FILMS: dict[str, Callable[[], Keyed[FilmLaw | ConservedOil]]] = {
+FILMS: dict[str, Callable[[], reading.Keyed[FilmLaw | ConservedOil]]] = {
     # With grooves or several pads at ambient pressure that is `grooved_map` with its defaults.
-    "map": lambda: keys_of(journal.MapFilm),
-    "grooved_map": lambda: keys_of(
-        journal.GroovedMapFilm, "largest_eccentricity_ratio", cells=COUNTS["cells"], nodes=NODES
+    "map": lambda: reading.keys_of(journal.MapFilm),
+    "grooved_map": lambda: reading.keys_of(
+        journal.GroovedMapFilm, "largest_eccentricity_ratio", cells=reading.COUNTS["cells"], nodes=NODES
     ),
-    "reynolds": lambda: keys_of(
+    "reynolds": lambda: reading.keys_of(
         journal.ReynoldsFilm,
         "cells",
-        cavitation=Variant("kind", CAVITATIONS),
-        film_start=Variant("kind", STARTS),
+        cavitation=reading.Variant("kind", CAVITATIONS),
+        film_start=reading.Variant("kind", STARTS),
     ),
-    "jfo": lambda: Keyed(ConservedOil, {"cells": COUNTS["cells"]}),
-    "short": lambda: keys_of(journal.ShortFilm),
-    "splitting": lambda: keys_of(
+    "jfo": lambda: reading.Keyed(ConservedOil, {"cells": reading.COUNTS["cells"]}),
+    "short": lambda: reading.keys_of(journal.ShortFilm),
+    "splitting": lambda: reading.keys_of(
         journal.SplittingFilm,
         "constant",
         required=("order",),
         order=read_order,
-        rupture=Variant("kind", RUPTURES),
+        rupture=reading.Variant("kind", RUPTURES),
     ),
 }
 """`film = {name = "map"}`: film laws by their names in scene files and at the command line."""
@@ -156,7 +144,7 @@ class ConservingTable:
     def conserved(self, bearing: Any, cells: tuple[int, int] | None = None) -> JFOFilm:
         """Return the film of a bearing that conserves its oil, on cells that by default are the file's."""
         own = self.film if isinstance(self.film, ConservedOil) else ConservedOil()
-        return made_from(JFOFilm, self, bearing=bearing, cells=cells or own.cells)
+        return reading.made_from(JFOFilm, self, bearing=bearing, cells=cells or own.cells)
 
     def build(self) -> Any:
         """Return the bearing, or its film that conserves the oil; InputError for a bad value."""
@@ -170,11 +158,11 @@ def require_law(table: Any, what: str) -> None:
         table.require_law(what)
 
 
-ANGLES = Several(Quantity("rad"), 2, 2, "two angles, about x and about y")
+ANGLES = reading.Several(reading.Quantity("rad"), 2, 2, "two angles, about x and about y")
 
 
 @dataclass(frozen=True, kw_only=True)
-@fields_of(JournalBearing, JFOFilm, without=("bearing", "cells", "mobility"))
+@reading.fields_of(JournalBearing, JFOFilm, without=("bearing", "cells", "mobility"))
 class JournalTable(ConservingTable, OiledTable):
     """`[journal]`: a cylindrical journal bearing, full unless it has pads or grooves.
 
@@ -202,7 +190,7 @@ class JournalTable(ConservingTable, OiledTable):
         length. Of a laminar film, a map or one on a grid, at a viscosity.
     """
 
-    film: Annotated[FilmLaw | ConservedOil | None, Variant("name", FILMS)] = None
+    film: Annotated[FilmLaw | ConservedOil | None, reading.Variant("name", FILMS)] = None
     pads: tuple[geometry.Pad, ...] = ()
     grooves: tuple[geometry.Groove, ...] = ()
     feed_holes: tuple[geometry.FeedHole, ...] = ()
@@ -242,7 +230,9 @@ class JournalTable(ConservingTable, OiledTable):
                 f"got film {journal.film_name(named)}"
             )
         openings = (*self.grooves, *self.feed_holes)
-        return made_from(JournalBearing, self, film=named, grooves=openings, turbulence=effect_of(self))
+        return reading.made_from(
+            JournalBearing, self, film=named, grooves=openings, turbulence=effect_of(self)
+        )
 
     def build(self) -> JournalBearing | JFOFilm | HeldTilt:
         """Return the bearing, its film that conserves the oil, or its tilted journal; InputError if bad."""
@@ -540,4 +530,4 @@ class BearingData(Readable):
 def bearing_data(bearing: JournalBearing) -> BearingData:
     """Return what a journal bearing is, without its film."""
     viscosity = bearing.film_viscosity
-    return made_from(BearingData, bearing, slenderness=bearing.slenderness, viscosity=viscosity)
+    return reading.made_from(BearingData, bearing, slenderness=bearing.slenderness, viscosity=viscosity)

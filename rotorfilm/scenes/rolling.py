@@ -16,20 +16,8 @@ from ..core.errors import InputError, RotorfilmError, ValidityWarning, require_p
 from ..core.model import Array
 from ..core.progress import Report
 from ..core.readable import Readable
+from . import reading
 from .families import messages, remarks_of
-from .reading import (
-    Count,
-    Keyed,
-    Quantity,
-    Several,
-    Table,
-    Taking,
-    fields_of,
-    made_from,
-    named,
-    one_of,
-    takes,
-)
 from .shared_tables import Lubricant, LubricantTable
 
 ANGLES = "two angles, about x and about y"
@@ -49,9 +37,13 @@ MATERIALS = {
     "steel": rolling.RollingMaterial.steel,
     "silicon_nitride": rolling.RollingMaterial.silicon_nitride,
 }
-OWN_MATERIAL = Keyed(
+OWN_MATERIAL = reading.Keyed(
     rolling.RollingMaterial,
-    {"young_modulus": Quantity("Pa"), "poisson_ratio": Quantity("1"), "density": Quantity("kg/m3")},
+    {
+        "young_modulus": reading.Quantity("Pa"),
+        "poisson_ratio": reading.Quantity("1"),
+        "density": reading.Quantity("kg/m3"),
+    },
 )
 INERTIAS = {
     "static": rolling.StaticBalls,
@@ -66,18 +58,18 @@ BALL_LAWS = {
 """Which law a number of the table belongs to."""
 
 
-@takes(MATERIALS, Table(OWN_MATERIAL))
+@reading.takes(MATERIALS, reading.Table(OWN_MATERIAL))
 def read_material(where: str, value: Any) -> rolling.RollingMaterial:
     """Read the name of a material, or its properties."""
     if isinstance(value, str):
-        return named(MATERIALS)(where, value)
-    return Table(OWN_MATERIAL)(where, value)
+        return reading.named(MATERIALS)(where, value)
+    return reading.Table(OWN_MATERIAL)(where, value)
 
 
 @dataclass(frozen=True, kw_only=True)
-@fields_of(rolling.RunningBalls, rolling.RaceControl, optional=True)
-@fields_of(rolling.BallBearing, without=("films", "law", "waviness"))
-class BallTable(Taking):
+@reading.fields_of(rolling.RunningBalls, rolling.RaceControl, optional=True)
+@reading.fields_of(rolling.BallBearing, without=("films", "law", "waviness"))
+class BallTable(reading.Taking):
     """`[ball_bearing]`: a deep groove or angular contact ball bearing, or a pair of angular contact bearings.
 
     Parameters
@@ -124,15 +116,15 @@ class BallTable(Taking):
         Roughness of ball and race together, for the film parameter.
     """
 
-    balls: Annotated[int, Count(MOST_BALLS, 3)]
+    balls: Annotated[int, reading.Count(MOST_BALLS, 3)]
     ball_material: Annotated[rolling.RollingMaterial, read_material]
     ring_material: Annotated[rolling.RollingMaterial, read_material]
-    tilt: Annotated[tuple[float, float], Several(Quantity("rad"), 2, 2, ANGLES)]
-    arrangement: Annotated[str | None, one_of(ARRANGEMENTS)] = None
+    tilt: Annotated[tuple[float, float], reading.Several(reading.Quantity("rad"), 2, 2, ANGLES)]
+    arrangement: Annotated[str | None, reading.one_of(ARRANGEMENTS)] = None
     distance: float | None = None
     preload: float | None = None
     inertia: Annotated[
-        rolling.StaticBalls | rolling.RunningBalls | rolling.RaceControl | None, named(INERTIAS)
+        rolling.StaticBalls | rolling.RunningBalls | rolling.RaceControl | None, reading.named(INERTIAS)
     ] = None
     viscosity: float | None = None
     pressure_coefficient: float | None = None
@@ -197,9 +189,9 @@ class BallTable(Taking):
             name: getattr(self, name) for name in ("axial_displacement", "axial_load", "tilt", "damping")
         }
         if self.arrangement is None:
-            return made_from(rolling.BallBearing, self, law=law)
+            return reading.made_from(rolling.BallBearing, self, law=law)
         alone = {"axial_displacement": 0.0, "axial_load": None, "tilt": (0.0, 0.0), "damping": 0.0}
-        one = made_from(rolling.BallBearing, self, law=law, **alone)
+        one = reading.made_from(rolling.BallBearing, self, law=law, **alone)
         if self.arrangement == "tandem" and self.preload is not None:
             raise InputError(f"preload must not be given in tandem, got {self.preload!r}")
         pair = ARRANGEMENTS[self.arrangement](one, distance=self.distance, preload=self.preload)
@@ -209,8 +201,10 @@ class BallTable(Taking):
         """Return what an answer repeats of the bearing, and the name of the law of its balls."""
         name = law_name(bearing)
         if isinstance(bearing, rolling.BearingPair):
-            return made_from(PairData, self, arrangement=self.arrangement or "", preload=self.preload), name
-        return made_from(BallData, self), name
+            return reading.made_from(
+                PairData, self, arrangement=self.arrangement or "", preload=self.preload
+            ), name
+        return reading.made_from(BallData, self), name
 
     def remarks(
         self, bearing: Balls, oil: Lubricant, speed: float, load: tuple[float, float], at: Any = None
@@ -243,7 +237,7 @@ NOT_REPEATED = ("ball_material", "ring_material", "axial_displacement", "tilt", 
 
 
 @dataclass(frozen=True, kw_only=True)
-@fields_of(rolling.BallBearing, without=("films", "law", "waviness", *NOT_REPEATED))
+@reading.fields_of(rolling.BallBearing, without=("films", "law", "waviness", *NOT_REPEATED))
 class BallData(Readable):
     """A ball bearing as it was understood."""
 

@@ -19,16 +19,8 @@ from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory
 from ..core.signals import PLANAR
+from . import shared_tables
 from .export_scene import at_rest, at_rest_on_film, from_shaft_rest
-from .shared_tables import (
-    BladeLossTable,
-    GroundTable,
-    MotorTable,
-    RunUpTable,
-    UnbalanceTable,
-    fastest_speed,
-    require_kind,
-)
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -124,8 +116,8 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
             "of the shaft, got [thrust] alone, whose film has no motion of its own"
         )
     report(0.0, "equilibrium")
-    require_kind(scene.excitation, ("unbalance", "blade_loss", "run_up", "motor", "ground"))
-    start = scene.excitation.start if isinstance(scene.excitation, BladeLossTable) else 0.0
+    shared_tables.require_kind(scene.excitation, ("unbalance", "blade_loss", "run_up", "motor", "ground"))
+    start = scene.excitation.start if isinstance(scene.excitation, shared_tables.BladeLossTable) else 0.0
     scene = after_loss(scene)
     parts = _parts(scene)
     report(0.05, "motion")
@@ -174,14 +166,14 @@ def largest_distance(time: Array, x: Array, y: Array) -> float:
 def after_loss(scene: Scene) -> Scene:
     """Return a scene that loses a blade as one whose rotor rests, and has its unbalance from then on."""
     lost = scene.excitation
-    if not isinstance(lost, BladeLossTable):
+    if not isinstance(lost, shared_tables.BladeLossTable):
         return scene
     if scene.speed == 0.0:
         raise InputError("operation.speed must not be zero for a lost blade, got 0.0")
     if scene.shaft is not None and any(one.unbalance > 0.0 for one in scene.shaft.unbalances):
         raise InputError("shaft.unbalances must be none where a blade is lost at rest, got some")
     assert scene.operation is not None  # or there is no speed
-    sudden = UnbalanceTable(
+    sudden = shared_tables.UnbalanceTable(
         unbalance=lost.unbalance,
         unbalance_angle=lost.unbalance_angle + scene.speed * lost.start,
         node=lost.node,
@@ -193,12 +185,12 @@ def after_loss(scene: Scene) -> Scene:
 def run_span(scene: Scene) -> tuple[float, float]:
     """Return how long the run of a scene is [s], and its highest speed without its sign [rad/s]."""
     excitation, duration = scene.excitation, None
-    if isinstance(excitation, RunUpTable):
+    if isinstance(excitation, shared_tables.RunUpTable):
         duration = excitation.profile(scene.speed).times[-1]
     given = None if scene.operation is None else scene.operation.duration
-    if isinstance(excitation, GroundTable) and given is None:
+    if isinstance(excitation, shared_tables.GroundTable) and given is None:
         duration = excitation.end
-    return duration or scene.duration, fastest_speed(scene)
+    return duration or scene.duration, shared_tables.fastest_speed(scene)
 
 
 def _parts(scene: Scene) -> _Parts:
@@ -206,14 +198,14 @@ def _parts(scene: Scene) -> _Parts:
     excitation = scene.excitation
     duration, fastest = run_span(scene)
     rotor, bearings = _on_shaft(scene) if scene.shaft is not None else _rigid(scene)
-    if isinstance(excitation, RunUpTable):
+    if isinstance(excitation, shared_tables.RunUpTable):
         rotor = replace(rotor, speed=excitation.profile(scene.speed))
     return _Parts(rotor, bearings, duration, fastest)
 
 
 def _on_shaft(scene: Scene) -> tuple[rotors.ShaftRotor, dict[str, Reaction]]:
     """Return the shaft of a scene, and its bearings."""
-    extra = (scene.excitation,) if isinstance(scene.excitation, UnbalanceTable) else ()
+    extra = (scene.excitation,) if isinstance(scene.excitation, shared_tables.UnbalanceTable) else ()
     rotor, bearings = scene.shaft.build(scene.speed, extra), scene.shaft.build_bearings()
     resting, at = at_rest(rotor, bearings, scene.speed)
     return resting, from_shaft_rest(bearings, at)
@@ -225,7 +217,7 @@ def _rigid(scene: Scene) -> tuple[rotors.RigidRotor, dict[str, Reaction]]:
         rotor, bearing = scene.rigid_rotor.build(scene.speed, (0.0, 0.0)), scene.damper.support()
     else:
         rotor, bearing = at_rest_on_film(scene)
-    if isinstance(scene.excitation, UnbalanceTable):
+    if isinstance(scene.excitation, shared_tables.UnbalanceTable):
         rotor = scene.excitation.given_to(rotor)
     return rotor, {"": bearing}
 
@@ -233,9 +225,9 @@ def _rigid(scene: Scene) -> tuple[rotors.RigidRotor, dict[str, Reaction]]:
 def _motion(scene: Scene, parts: _Parts, times: Array) -> Trajectory:
     """Return the motion of rotor and bearings."""
     rotor: Any = parts.rotor
-    if isinstance(scene.excitation, MotorTable):
+    if isinstance(scene.excitation, shared_tables.MotorTable):
         return _on_motor(scene.excitation, parts, times)
-    if isinstance(scene.excitation, GroundTable):
+    if isinstance(scene.excitation, shared_tables.GroundTable):
         rotor = rotors.BaseExcitedRotor(rotor=rotor, base=scene.excitation.motion(parts.duration))
     if isinstance(parts.rotor, rotors.RigidRotor):
         return simulate(rotor, parts.bearings[""], duration=parts.duration, times=times, rtol=RTOL)
@@ -247,7 +239,7 @@ def _motion(scene: Scene, parts: _Parts, times: Array) -> Trajectory:
     )
 
 
-def _on_motor(table: MotorTable, parts: _Parts, times: Array) -> Trajectory:
+def _on_motor(table: shared_tables.MotorTable, parts: _Parts, times: Array) -> Trajectory:
     """Return the motion of a rotor that a motor turns: one bearing is the other half of `simulate`."""
     rotor, last = parts.rotor, next(reversed(parts.bearings))
     if isinstance(rotor, rotors.ShaftRotor):

@@ -25,22 +25,10 @@ from ..core.results import Equilibrium
 from ..core.sources import offered
 from ..core.units import STANDARD_GRAVITY, whole_number
 from ..rotors.rigid import RigidRotor
+from . import shared_tables
 from .families import FAMILIES, brought, table_of
 from .reading import Beside, Quantity, Variant, one_of, read_table, require_no_near_miss, takes
-from .shared_tables import (
-    EXCITATIONS,
-    SCHEMA,
-    CosimulationTable,
-    ExcitationTable,
-    FilmTable,
-    LubricantTable,
-    OperationTable,
-    RigidRotorTable,
-    UnbalanceTable,
-    film_table,
-    film_tables,
-    oil_remarks,
-)
+from .shared_tables import film_table
 from .turbulent import decided
 
 if TYPE_CHECKING:
@@ -141,11 +129,13 @@ class Scene:
     )
 
     # What all families share.
-    operation: OperationTable | None = None
-    lubricant: LubricantTable = field(default_factory=LubricantTable)
-    rigid_rotor: RigidRotorTable | None = None
-    excitation: Annotated[ExcitationTable | None, Variant("kind", EXCITATIONS)] = None
-    cosimulation: CosimulationTable = field(default_factory=CosimulationTable)
+    operation: shared_tables.OperationTable | None = None
+    lubricant: shared_tables.LubricantTable = field(default_factory=shared_tables.LubricantTable)
+    rigid_rotor: shared_tables.RigidRotorTable | None = None
+    excitation: Annotated[
+        shared_tables.ExcitationTable | None, Variant("kind", shared_tables.EXCITATIONS)
+    ] = None
+    cosimulation: shared_tables.CosimulationTable = field(default_factory=shared_tables.CosimulationTable)
     question: QuestionTable | None = None
 
     def __post_init__(self) -> None:
@@ -154,7 +144,7 @@ class Scene:
             raise InputError(f"{' or '.join(FAMILIES)} is required and missing")
         if self.question is not None and self.question.at:
             self._require_place(self.question.at, self.question.quantity)
-        if isinstance(self.excitation, UnbalanceTable):
+        if isinstance(self.excitation, shared_tables.UnbalanceTable):
             self._require_node("excitation.node", self.excitation.node)
         if self.shaft is not None:
             self._decide("shaft", brought("scenes.turbulent_shaft.decided_shaft"))
@@ -164,7 +154,7 @@ class Scene:
             raise InputError("operation is required and missing: the journal has no speed and no load")
         if self.operation.load is None and self.rigid_rotor is None:
             raise InputError(NO_LOAD)
-        for name in film_tables(self.tables):
+        for name in shared_tables.film_tables(self.tables):
             self._decide(name, decided)
 
     def __getattr__(self, name: str) -> Any:
@@ -175,7 +165,7 @@ class Scene:
 
     def _take_oil(self) -> None:
         """Give the oil of `[lubricant]` to the bearings that state no viscosity."""
-        _ = film_tables(self.tables)  # at most one
+        _ = shared_tables.film_tables(self.tables)  # at most one
         oiled = {
             name: table.on(name, self.lubricant)
             for name, table in self.tables.items()
@@ -323,7 +313,9 @@ class Scene:
     def excited_by(self, what: str, *kinds: type) -> Any:
         """Return the excitation; raise InputError, which states its purpose, for other kinds."""
         if not isinstance(self.excitation, kinds):
-            named = " or ".join(f'"{name}"' for name, table in EXCITATIONS.items() if table in kinds)
+            named = " or ".join(
+                f'"{name}"' for name, table in shared_tables.EXCITATIONS.items() if table in kinds
+            )
             got = "none" if self.excitation is None else repr(self.excitation)
             raise InputError(f"excitation of kind {named} is required for {what}, got {got}")
         return self.excitation
@@ -335,7 +327,7 @@ class Scene:
 
     def _remarks_of(self, bearing: Reaction, at: Equilibrium | None = None) -> tuple[str, ...]:
         own = self.film_table.remarks(bearing, self.lubricant.properties, self.speed, self.static_load, at)
-        return (*oil_remarks(self.tables, self.lubricant), *own)
+        return (*shared_tables.oil_remarks(self.tables, self.lubricant), *own)
 
     @property
     def film_is_given(self) -> bool:
@@ -345,10 +337,10 @@ class Scene:
     @property
     def has_film(self) -> bool:
         """Whether there is a bearing with a film that carries the static load."""
-        return bool(film_tables(self.tables))
+        return bool(shared_tables.film_tables(self.tables))
 
     @property
-    def film_table(self) -> FilmTable:
+    def film_table(self) -> shared_tables.FilmTable:
         """The table of the bearing with a film; raises InputError if the scene has none."""
         return film_table(self.tables)
 
@@ -380,7 +372,7 @@ class Scene:
     @property
     def rotor(self) -> RigidRotor:
         """The rotor under the static load; raises InputError if the scene has none."""
-        table: RigidRotorTable = self.required("rigid_rotor", "a transient and for a rotor FMU")
+        table: shared_tables.RigidRotorTable = self.required("rigid_rotor", "a transient and for a rotor FMU")
         return table.build(self.speed, self.static_load)
 
     @property
@@ -402,8 +394,8 @@ class Scene:
         return angle / abs(self.speed)
 
     @property
-    def _operation(self) -> OperationTable:
-        found: OperationTable = self.required("operation", "a speed and a load")
+    def _operation(self) -> shared_tables.OperationTable:
+        found: shared_tables.OperationTable = self.required("operation", "a speed and a load")
         return found
 
 
@@ -522,8 +514,8 @@ def json_schema() -> str:
 
 def require_schema(source: str, data: dict[str, Any]) -> None:
     """Take the version out of the data; raise SceneError if it is not the one that is read here."""
-    value = data.pop("schema", None)
-    if type(value) is not int or value != SCHEMA:
+    value, wanted = data.pop("schema", None), shared_tables.SCHEMA
+    if type(value) is not int or value != wanted:
         require_no_near_miss(f"{source}: ", "schema", data)
         found = "nothing" if value is None else brief(value)
-        raise SceneError(f"{source}: schema must be {SCHEMA} (write `schema = {SCHEMA}`), got {found}")
+        raise SceneError(f"{source}: schema must be {wanted} (write `schema = {wanted}`), got {found}")

@@ -10,18 +10,10 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ..analysis import coefficients, equilibrium
+from ..bearings import thrust
 from ..bearings.assemblies import Parallel
 from ..bearings.films.turbulence import stiffening
 from ..bearings.own_reaction import as_reaction
-from ..bearings.thrust import (
-    SENSE,
-    TURBULENT_PADS,
-    SectorPads,
-    ThrustBearing,
-    ThrustLosses,
-    TiltingThrustBearing,
-    double_acting,
-)
 from ..core.dynamic_stiffness import quasi_static
 from ..core.errors import EquilibriumError, InputError, require_number, require_positive
 from ..core.model import Array
@@ -48,11 +40,11 @@ OF_PLACE = ("gap", "side", "start", "extrapolated", "tabulated")
 PIVOTED = ("pivot_width", "line_pivot")
 FIXED = ("taper_depth", "taper_share", "step_depth", "step_share", "step_width", "continuous")
 
-Pads = ThrustBearing | TiltingThrustBearing
+Pads = thrust.ThrustBearing | thrust.TiltingThrustBearing
 
 
 @dataclass(frozen=True, kw_only=True)
-@fields_of(TiltingThrustBearing, ThrustBearing, without=OF_PLACE)
+@fields_of(thrust.TiltingThrustBearing, thrust.ThrustBearing, without=OF_PLACE)
 class ThrustTable(OiledTable):
     """`[thrust]`: a thrust bearing of sector pads, fixed or tilting, on one side of the collar or on both.
 
@@ -117,8 +109,10 @@ class ThrustTable(OiledTable):
 
     def one_side(self) -> Any:
         """Return the pads that push along +z; InputError where a value breaks its rule."""
-        cells = self.cells or ThrustBearing.cells
-        return made_from(TiltingThrustBearing if self.tilts else ThrustBearing, self, cells=cells)
+        cells = self.cells or thrust.ThrustBearing.cells
+        return made_from(
+            thrust.TiltingThrustBearing if self.tilts else thrust.ThrustBearing, self, cells=cells
+        )
 
     def build(self) -> Pads | Parallel:
         """Return the bearing; InputError where a value breaks its rule."""
@@ -130,7 +124,7 @@ class ThrustTable(OiledTable):
                 f"viscosity must be given beside play, as each side has a temperature of its own, got "
                 f"{self.viscosity!r}"
             )
-        return double_acting(pads, self.play)
+        return thrust.double_acting(pads, self.play)
 
     def under_shaft(self) -> Parallel:
         """Return the bearing with its axial load, from a table where the pads have one.
@@ -146,7 +140,7 @@ class ThrustTable(OiledTable):
         with suppress(InputError):
             pads = replace(pads, tabulated=True)
         if self.play is not None:
-            pair = double_acting(pads, self.play)
+            pair = thrust.double_acting(pads, self.play)
             return pair if self.axial_load is None else Parallel((pair, _pushed(self.load[0], self.play)))
         return Parallel((replace(pads, gap=pads.film_scale), _pushed(self.load[0], pads.film_scale)))
 
@@ -175,7 +169,7 @@ def pads_load(bearing: Any, position: Array, speed: float) -> float:
     if not isinstance(bearing, Parallel):
         found: Array = static_force(quasi_static(bearing), position, np.zeros(3), speed)
         return float(found[0])
-    films = [one for one in bearing.reactions if isinstance(one, Parallel | SectorPads)]
+    films = [one for one in bearing.reactions if isinstance(one, Parallel | thrust.SectorPads)]
     return sum(pads_load(one, position, speed) for one in films)
 
 
@@ -254,7 +248,7 @@ class ThrustAnswer(Readable):
     model: str
     equilibrium: Equilibrium
     coefficients: Coefficients
-    losses: ThrustLosses
+    losses: thrust.ThrustLosses
     leaving_temperature: float | None = None
     remarks: tuple[str, ...] = ()
 
@@ -294,7 +288,7 @@ class ThrustRest(NamedTuple):
         return float(static_force(quasi_static(self.bearing), self.position, np.zeros(3), self.speed)[0])
 
     @property
-    def losses(self) -> ThrustLosses:
+    def losses(self) -> thrust.ThrustLosses:
         """Those of all sides together."""
         each = [one.losses(self.position, np.zeros(3), self.speed) for one in self.sides]
         return each[0] if len(each) == 1 else both_sides(*each)
@@ -311,11 +305,11 @@ class ThrustRest(NamedTuple):
         )
 
 
-def both_sides(front: ThrustLosses, back: ThrustLosses) -> ThrustLosses:
+def both_sides(front: thrust.ThrustLosses, back: thrust.ThrustLosses) -> thrust.ThrustLosses:
     """Return the losses of both sides of a collar together."""
     kinds: dict[str, Any] = {"highest_pressure": max, "minimum_film": min, "film_share": np.mean}
     pairs = {one.name: (getattr(front, one.name), getattr(back, one.name)) for one in fields(front)}
-    return ThrustLosses(**{name: kinds.get(name, sum)(pair) for name, pair in pairs.items()})
+    return thrust.ThrustLosses(**{name: kinds.get(name, sum)(pair) for name, pair in pairs.items()})
 
 
 def thrust_rest(bearing: Any, load: tuple[float, float, float], speed: float) -> ThrustRest:
@@ -360,7 +354,7 @@ def _carrying(rest: ThrustRest, film: float) -> ThrustRest:
     if not rest.load > 0.0:
         raise EquilibriumError(
             f"the pads must carry a load at smallest_film {film!r} m, got {rest.load:.6g} N at "
-            f"{rest.speed!r} rad/s; {SENSE}"
+            f"{rest.speed!r} rad/s; {thrust.SENSE}"
         )
     return rest
 
@@ -425,8 +419,8 @@ def thrust_numbers(rest: ThrustRest, oil: Lubricant) -> dict[str, float]:
         warming = losses.power_loss / (oil.density * oil.heat_capacity * losses.inflow)
     return {
         "reynolds": flow,
-        "turbulent": TURBULENT_PADS,
-        "turbulence": stiffening(flow) if flow > TURBULENT_PADS else 0.0,
+        "turbulent": thrust.TURBULENT_PADS,
+        "turbulence": stiffening(flow) if flow > thrust.TURBULENT_PADS else 0.0,
         "tilt": np.inf if pads.tilts else 1e3 * losses.minimum_film / pads.outer_radius,
         "warming": warming,
         "thinning": -np.expm1(-0.5 * oil.thinning * warming),

@@ -14,15 +14,7 @@ from ..core.errors import InputError, require_finite
 from ..core.model import Array
 from ..core.progress import Report, silent
 from ..core.results import Coefficients
-from .journal_accuracy import (
-    LARGE,
-    SPEED,
-    TENSION,
-    chosen_rungs,
-    comparison_bearing,
-    random_states,
-    require_cells,
-)
+from . import journal_accuracy
 from .study import States, StudyModel, StudyResult, StudyRow
 
 THRESHOLD_CELLS = (384, 16)
@@ -92,17 +84,19 @@ def journal_stability(
     error. It is not divided, since the edge of the ruptured zone jumps and the derivatives are of first
     order.
     """
-    rungs = chosen_rungs(rungs)
+    rungs = journal_accuracy.chosen_rungs(rungs)
     ratios = _required_ratios(eccentricity_ratio)
-    require_cells(cells)
-    bearing = comparison_bearing(slenderness)
+    journal_accuracy.require_cells(cells)
+    bearing = journal_accuracy.comparison_bearing(slenderness)
     report(0.0, "two-dimensional reference")
     around, along = cells
     exact, rough = (
         _curve(fitted_bearing(bearing, AveragedFilm(film=ReynoldsFilm(cells=grid))), ratios)[0]
         for grid in (cells, (around // 2, along // 2))
     )
-    sample = random_states(LARGE, count=TENSION_STATES, clearance=bearing.clearance)
+    sample = journal_accuracy.random_states(
+        journal_accuracy.LARGE, count=TENSION_STATES, clearance=bearing.clearance
+    )
     found: list[StudyRow] = []
     for number, rung in enumerate(rungs):
         report((number + 1) / (len(rungs) + 1), f"whirl threshold by {rung.name}")
@@ -128,7 +122,7 @@ def _required_ratios(eccentricity_ratio: Sequence[float]) -> Array:
 
 def _static_states(bearing: JournalBearing, ratios: Array) -> States:
     position = bearing.clearance * np.stack([ratios, np.zeros_like(ratios)])
-    return States(position, np.zeros_like(position), np.full(len(ratios), SPEED))
+    return States(position, np.zeros_like(position), np.full(len(ratios), journal_accuracy.SPEED))
 
 
 def _curve(bearing: JournalBearing, ratios: Array) -> tuple[Parameters, tuple[str, ...], list[Coefficients]]:
@@ -140,7 +134,7 @@ def _curve(bearing: JournalBearing, ratios: Array) -> tuple[Parameters, tuple[st
             stiffness=-slopes[:, :2, k],
             damping=-slopes[:, 2:4, k],
             position=states.position[:, k],
-            speed=SPEED,
+            speed=journal_accuracy.SPEED,
         )
         for k in range(len(ratios))
     ]
@@ -148,7 +142,9 @@ def _curve(bearing: JournalBearing, ratios: Array) -> tuple[Parameters, tuple[st
     parameters = tuple(
         None
         if border.mass is None
-        else speed_parameter(speed=SPEED, clearance=bearing.clearance, mass=border.mass, load=load)
+        else speed_parameter(
+            speed=journal_accuracy.SPEED, clearance=bearing.clearance, mass=border.mass, load=load
+        )
         for border, load in zip(borders, force.T, strict=True)
     )
     return parameters, tuple(border.reason for border in borders), matrices
@@ -163,7 +159,7 @@ def _points(
         tension(rung.law, *own.kinematics(*states), own.slenderness)
         for states in (_static_states(own, ratios), sample)
     )
-    share = float(np.mean(moving > TENSION))
+    share = float(np.mean(moving > journal_accuracy.TENSION))
     rows = zip(ratios.tolist(), *_curve(own, ratios), exact, still.tolist(), strict=True)
     for ratio, parameter, reason, at, right, pulled in rows:
         judged, gap = is_judged(right), _deviation(parameter, right)

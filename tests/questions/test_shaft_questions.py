@@ -22,13 +22,13 @@ from rotorfilm.analysis import (
     unbalance_response,
 )
 from rotorfilm.analysis.driven_rotor import rest_position, rotor_answers
+from rotorfilm.analysis.rotor_matrices import whirl_near
 from rotorfilm.analysis.speed_events import (
     CRITICAL,
     THRESHOLD,
     Start,
     on_films,
     value_rate,
-    whirl_near,
     whirl_of,
 )
 from rotorfilm.bearings.journal import JournalBearing, MapFilm

@@ -10,8 +10,8 @@ from scipy.integrate import solve_ivp
 
 import rotorfilm as rf
 from rotorfilm.analysis import continue_orbits, periodic_orbit
-from rotorfilm.analysis.harmonic_balance import Balance, lengthened, solve
-from rotorfilm.analysis.periodic_orbit import CONVERGED, _driven, finished, series_of
+from rotorfilm.analysis.harmonic_balance import CONVERGED, Balance, lengthened, solve
+from rotorfilm.analysis.periodic_orbit import _driven, finished, series_of
 from rotorfilm.analysis.port_orbits import PortRotor
 from rotorfilm.bearings import f4k20_bush
 from rotorfilm.bearings.rolling import BALL_FREEDOMS, MomentCarryingBalls, back_to_back
