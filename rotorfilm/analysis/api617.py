@@ -11,7 +11,7 @@ from typing import NamedTuple, Protocol, runtime_checkable
 import numpy as np
 
 from ..core.dynamic_stiffness import has_own_stiffness, states_rest
-from ..core.errors import AbsentError, ConvergenceError, InputError, require_positive, warn_user
+from ..core.errors import AbsentError, ConvergenceError, InputError, require_each, require_positive, warn_user
 from ..core.inputs import arguments, in_si, quantities
 from ..core.model import Array
 from ..core.port import Bearings, carries_load
@@ -482,8 +482,8 @@ class Impeller:
     alford_factor: float = CENTRIFUGAL
 
     def __post_init__(self) -> None:
-        for name in ("power", "diameter", "width", "suction_density", "discharge_density", "alford_factor"):
-            require_positive(name, getattr(self, name))
+        names = ("power", "diameter", "width", "suction_density", "discharge_density", "alford_factor")
+        require_each(self, require_positive, *names)
         if self.discharge_density < self.suction_density:
             raise InputError(
                 f"discharge_density must be at least suction_density {self.suction_density!r}, "
@@ -560,8 +560,7 @@ class AxialStage:
     alford_factor: float = AXIAL
 
     def __post_init__(self) -> None:
-        for name in ("power", "diameter", "height", "alford_factor"):
-            require_positive(name, getattr(self, name))
+        require_each(self, require_positive, "power", "diameter", "height", "alford_factor")
 
     def cross_coupling(self, speed: float) -> float:
         """Return the anticipated cross-coupled stiffness [N/m] at an angular speed [rad/s]."""

@@ -15,6 +15,7 @@ from ..core.errors import (
     EquilibriumError,
     InputError,
     require_count,
+    require_each,
     require_finite,
     require_non_negative,
     require_number,
@@ -47,8 +48,7 @@ class _Spring:
     damping: float = 0.0
 
     def __post_init__(self) -> None:
-        require_non_negative("stiffness", self.stiffness)
-        require_non_negative("damping", self.damping)
+        require_each(self, require_non_negative, "stiffness", "damping")
 
 
 @quantities

@@ -138,8 +138,7 @@ class JournalPairs:
     def gaps(self: Any, position: Array) -> Array:
         """Return the clearance left to each journal, shape (n_bearings, samples) [m]."""
         pairs = position.reshape(-1, 2, position.shape[1])
-        left: Array = self.clearances[:, None] - np.hypot(pairs[:, 0], pairs[:, 1])
-        return left
+        return self.clearances[:, None] - np.hypot(pairs[:, 0], pairs[:, 1])
 
 
 R = TypeVar("R", bound=HarmonicRotor)

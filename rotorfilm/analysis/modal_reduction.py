@@ -357,8 +357,7 @@ def _cached_model(rotor: FlexibleRotor, exponent: int) -> Condensed | None:
             while len(_shared) > _SHARED:
                 _shared.pop(next(iter(_shared)))
         known[exponent] = _shared[key]
-    found: Condensed = known[exponent]
-    return found
+    return known[exponent]
 
 
 def whirling(rotor: FlexibleRotor, bearings: Bearings) -> FlexibleRotor:
@@ -373,8 +372,7 @@ def whirling(rotor: FlexibleRotor, bearings: Bearings) -> FlexibleRotor:
     key = ("whirling", aside.tobytes())
     if key not in rotor.cache:
         rotor.cache[key] = MatrixRotor(rotor, without(rotor.assembly, aside))
-    found: FlexibleRotor = rotor.cache[key]
-    return found
+    return rotor.cache[key]
 
 
 # Where bearings act, and the force of one whose states rest.

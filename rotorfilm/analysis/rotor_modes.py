@@ -737,8 +737,7 @@ def resonant_speeds(speeds: ArrayLike, critical: Sequence[CriticalSpeed]) -> Arr
     damped = [one for one in critical if abs(one.log_decrement) > LEAST_DECREMENT]
     near = [one.speed * (1.0 + width * abs(one.log_decrement) / (2.0 * np.pi)) for one in damped]
     every = np.unique(np.concatenate([grid, *near]))
-    within: Array = every[(every >= grid[0]) & (every <= grid[-1])]
-    return within
+    return every[(every >= grid[0]) & (every <= grid[-1])]
 
 
 # Which whirl at one speed is which at another.

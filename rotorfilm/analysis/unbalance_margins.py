@@ -545,8 +545,7 @@ def _shape(rotor: ShaftRotor, at: RotorEquilibrium, mode: int) -> Array:
     _, modes = lowest_modes(stiffness, mass, mode)
     if modes.shape[1] < mode:
         raise InputError(f"mode must be at most {modes.shape[1]}, got {mode}")
-    shape: Array = modes[: 2 * nodes : 2, mode - 1]
-    return shape
+    return modes[: 2 * nodes : 2, mode - 1]
 
 
 def _lobes(shape: Array) -> Iterator[int]:

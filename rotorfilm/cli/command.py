@@ -197,8 +197,7 @@ class Parser(argparse.ArgumentParser):
 def function_of(home: str) -> Callable[..., CommandOutput]:
     """Return the function of a command, and import its module and no other."""
     module, _, name = home.rpartition(".")
-    found: Callable[..., CommandOutput] = getattr(import_module(f".{module}", __package__), name)
-    return found
+    return getattr(import_module(f".{module}", __package__), name)
 
 
 def run_command(program: str, group: Group, home: str, words: Sequence[str]) -> None:

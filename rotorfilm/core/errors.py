@@ -139,6 +139,11 @@ def require_each(owner: object, rule: Callable[[str, Any], object], *names: str)
         rule(name, getattr(owner, name))
 
 
+def require_given(owner: object, rule: Callable[[str, Any], object], *names: str) -> None:
+    """Raise InputError unless those of these attributes that are not None obey a rule."""
+    require_each(owner, rule, *(name for name in names if getattr(owner, name) is not None))
+
+
 def require_kind(name: str, value: Any, kind: Any, expected: str) -> None:
     """Raise InputError unless `value` is an instance of a class, of one of a union, or obeys a protocol.
 

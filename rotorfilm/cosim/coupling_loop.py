@@ -53,8 +53,7 @@ class Loop(NamedTuple):
     def closed(self) -> Array:
         """The matrix of the system without coupling error."""
         feedback = self.stiffness @ self.position + self.damping @ self.velocity
-        closed: Array = self.A - self.B @ feedback
-        return closed
+        return self.A - self.B @ feedback
 
     @property
     def squeeze_rate(self) -> float:

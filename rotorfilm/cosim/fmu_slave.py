@@ -128,8 +128,7 @@ class FmuSlave(Slave):
         wanted = tuple(unknowns), tuple(knowns)
         if wanted not in self._slopes_of:
             self._slopes_of[wanted] = self._instance.slopes(*wanted)
-        found: Array = self._calling("reading derivatives", self._slopes_of[wanted])
-        return found
+        return self._calling("reading derivatives", self._slopes_of[wanted])
 
     def compiled(self, film: bool) -> CompiledPartner | None:
         """Return the functions of the library of the FMU; None of a subclass, which may differ."""

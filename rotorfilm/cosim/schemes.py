@@ -363,22 +363,20 @@ class SIExp3(_Tangential):
         if len(history) < 2:
             return super().curvature(history)
         before, now = history[-2:]
-        curvature: Array = defect(before, now) / (now.time - before.time) ** 2
-        return curvature
+        return defect(before, now) / (now.time - before.time) ** 2
 
 
 def defect(before: Sample, now: Sample) -> Array:
     """Return D, what the film's tangents at `now` leave of the force at `before`, shape (m,) [N]."""
     tangents = now.tangents
     assert tangents is not None  # the scheme asks for them
-    left: Array = (
+    return (
         before.force
         - now.force
         + tangents.stiffness @ (before.motion.position - now.motion.position)
         + tangents.damping @ (before.motion.velocity - now.motion.velocity)
         - tangents.by_speed_change(before.motion.speed - now.motion.speed, now.force)
     )
-    return left
 
 
 def tangent_law(history: Sequence[Sample], curvature: Array) -> ForceLaw:
@@ -509,8 +507,7 @@ def _guess(history: Sequence[Sample], middle: float) -> Array:
         return history[-1].force
     before, now = history[-2:]
     ahead = (middle - now.time) / (now.time - before.time)
-    force: Array = now.force + ahead * (now.force - before.force)
-    return force
+    return now.force + ahead * (now.force - before.force)
 
 
 def _correction(found: Sample, sensitivity: Array, residual: Array) -> Array:

@@ -312,8 +312,7 @@ class InProcessSlave(_Held, Integrated):
     def jacobian(self, outputs: Sequence[str], inputs: Sequence[str]) -> Array:
         """Return d(outputs)/d(inputs) at present, shape (n_outputs, n_inputs)."""
         rows, columns = [self.outputs.index(n) for n in outputs], [self.inputs.index(n) for n in inputs]
-        found: Array = self._model.linearization(self._t, self.state, self._u).D[np.ix_(rows, columns)]
-        return found
+        return self._model.linearization(self._t, self.state, self._u).D[np.ix_(rows, columns)]
 
     def save(self) -> tuple[float, Array, Array]:
         """Return time, states and inputs."""
@@ -387,8 +386,7 @@ class SteppedPartner(_Held):
             [signals.FORCE_OUTPUTS.index(n) for n in outputs],
             [signals.JOURNAL_INPUTS.index(n) for n in inputs],
         )
-        slopes: Array = self._film.slopes(self._state)[np.ix_(rows, columns)]
-        return slopes
+        return self._film.slopes(self._state)[np.ix_(rows, columns)]
 
     def save(self) -> tuple[Any, Array]:
         """Return the state and the inputs; states are never changed."""
@@ -612,8 +610,7 @@ class LawIntegrator:
 
     def _loop(self, matrices: Linearization, law: ForceLaw) -> Array:
         feedback = law.stiffness @ matrices.C[self._position] + law.damping @ matrices.C[self._velocity]
-        closed: Array = matrices.A - matrices.B[:, self._force] @ feedback
-        return closed
+        return matrices.A - matrices.B[:, self._force] @ feedback
 
 
 def _integral(M: Array, powers: Array) -> Array:

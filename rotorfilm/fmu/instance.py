@@ -308,14 +308,12 @@ class Instance:
     ) -> list[float]:
         """Return the derivative of the unknowns along `seed`, in the space of the knowns."""
         count = self._count(unknowns)
-        found: list[float] = self.fmu.getDirectionalDerivative(unknowns, knowns, seed, *count)
-        return found
+        return self.fmu.getDirectionalDerivative(unknowns, knowns, seed, *count)
 
     def adjoint(self, unknowns: Sequence[int], knowns: Sequence[int], seed: Sequence[float]) -> list[float]:
         """Return the derivative of the sum of the unknowns, weighted by `seed`, by each known (FMI 3.0)."""
         (count,) = self._count(knowns)
-        found: list[float] = self.fmu.getAdjointDerivative(unknowns, knowns, seed, nSensitivity=count)
-        return found
+        return self.fmu.getAdjointDerivative(unknowns, knowns, seed, nSensitivity=count)
 
     def output_slopes(self, references: Sequence[int]) -> list[float]:
         """Return the derivatives of outputs in time under held inputs (Co-Simulation), FMI 3.0 or 2.0."""
@@ -345,8 +343,7 @@ class Instance:
 
     def serialize(self, state: Any) -> bytes:
         """Return an FMU state as bytes."""
-        content: bytes = self.fmu.serializeFMUState(state)
-        return content
+        return self.fmu.serializeFMUState(state)
 
     def close(self, terminate: bool = True) -> None:
         """Terminate if asked, free the instance and unload its library."""

@@ -147,8 +147,7 @@ def _moved_exactly(model: LinearSystem, x: Array, u: Array, step: float) -> Arra
     n, m = model.B.shape
     whole = np.zeros((n + m, n + m))
     whole[:n, :n], whole[:n, n:] = model.A, model.B
-    moved: Array = (expm(step * whole) @ np.concatenate([x, u]))[:n]
-    return moved
+    return (expm(step * whole) @ np.concatenate([x, u]))[:n]
 
 
 def to_csv(names: Sequence[str], table: Array) -> bytes:
@@ -204,13 +203,11 @@ class LinearSystem:
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return A x + B u, shape (n,)."""
-        slope: Array = self.A @ np.asarray(x, dtype=float) + self.B @ np.asarray(u, dtype=float)
-        return slope
+        return self.A @ np.asarray(x, dtype=float) + self.B @ np.asarray(u, dtype=float)
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return C x + D u, shape (p,)."""
-        output: Array = self.C @ np.asarray(x, dtype=float) + self.D @ np.asarray(u, dtype=float)
-        return output
+        return self.C @ np.asarray(x, dtype=float) + self.D @ np.asarray(u, dtype=float)
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the matrices."""

@@ -318,8 +318,7 @@ class PeakRung(CandidateRung):
     @property
     def tangents(self) -> WorkUnit:
         """One force of the film with derivatives."""
-        unit: WorkUnit = self.film.tangents
-        return unit
+        return self.film.tangents
 
     @property
     def shaken(self) -> equal_steps.ExcitedRotor:

@@ -247,8 +247,7 @@ class StaticRung(CandidateRung):
 
     def expected(self, done: Work) -> Work:
         """Return as much work as a lower rung did."""
-        work: Work = self.film.expected(sum(done.values()))
-        return work
+        return self.film.expected(sum(done.values()))
 
 
 UNFED = (

@@ -136,8 +136,7 @@ def _uniform_heat(
 
 def balance_at(bearing: JournalBearing, own: film_heat.WarmRest) -> float:
     """Return the temperature at which the heat of a bearing balances at the place of a rest [K]."""
-    temperature: float = bearing.balanced_temperature(own.rest.position, np.zeros(2), own.rest.speed)
-    return temperature
+    return bearing.balanced_temperature(own.rest.position, np.zeros(2), own.rest.speed)
 
 
 def with_heat(

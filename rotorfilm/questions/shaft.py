@@ -222,8 +222,7 @@ class ShaftSpeedRung(shaft_films.ShaftRung):
 
     def rest(self, found: RungResult) -> RotorEquilibrium:
         """Return the rotor at rest at the first of the speeds."""
-        at: RotorEquilibrium = found.solution.whirls[0].at
-        return at
+        return found.solution.whirls[0].at
 
     def on(self, found: RungResult, coefficients: dict[str, Coefficients]) -> float:
         """Return the speed [rad/s] on these K and C, for small changes."""

@@ -134,8 +134,7 @@ class ShaftOrbitRung(shaft_films.ShaftRung):
 
     def rest(self, found: RungResult) -> RotorEquilibrium:
         """Return the rotor at rest."""
-        at: RotorEquilibrium = found.solution.at
-        return at
+        return found.solution.at
 
     def on(self, found: RungResult, coefficients: dict[str, Coefficients]) -> float:
         """Return the quantity of the linear orbit on these K and C."""

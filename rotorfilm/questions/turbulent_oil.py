@@ -113,8 +113,7 @@ def step_to(question: Any, film: FilmCandidate, bearing: Any, richer: Turbulence
     candidate = replace(film, reaction=bearing, rich=rich, rich_name="another turbulence", bounded=False)
     rung = question.make(replace(candidate, making=0.0), question.counts[0])
     found = rung.answer(None)
-    about: ErrorEstimate = rung.estimate(found, None, 0.0)
-    return about
+    return rung.estimate(found, None, 0.0)
 
 
 def by_stress(question: Any, film: FilmCandidate, bearing: Any) -> float:

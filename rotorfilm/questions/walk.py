@@ -300,10 +300,7 @@ LADDERS = {
 
 def ladders_of(name: str) -> Mapping[str, Callable[[Scene, str], answers.Ladder]]:
     """Return the ladders of a family by quantity: calls that take a scene and the quantity."""
-    found: Mapping[str, Callable[[Scene, str], answers.Ladder]] = brought(
-        FAMILIES[name].ladders or LADDERS[name]
-    )
-    return found
+    return brought(FAMILIES[name].ladders or LADDERS[name])
 
 
 def ladder_of(scene: Scene) -> answers.Ladder:

@@ -75,23 +75,19 @@ class ForceLaw(NamedTuple):
     def at(self, t: float, position: ArrayLike, velocity: ArrayLike) -> Array:
         """Return the force at a time [s] and a motion [m], [m/s], shape (m, ...) [N]."""
         elapsed = t - self.start
-        total: Array = (
+        return (
             self.force
             + elapsed * (self.slope + elapsed * self.curvature)
             - self.stiffness @ (np.asarray(position) - self.position)
             - self.damping @ (np.asarray(velocity) - self.velocity)
         )
-        return total
 
     def station(self, number: int) -> list[float]:
         """Return the values of one station: force_x, force_y, then those of LAW_NAMES."""
         pair = slice(2 * number, 2 * number + 2)
         parts = (self.force[pair], self.slope[pair], self.curvature[pair])
         matrices = (self.stiffness[pair, pair].ravel(), self.damping[pair, pair].ravel())
-        numbers: list[float] = np.concatenate(
-            [*parts, *matrices, self.position[pair], self.velocity[pair]]
-        ).tolist()
-        return numbers
+        return np.concatenate([*parts, *matrices, self.position[pair], self.velocity[pair]]).tolist()
 
 
 def held_law(start: float, force: Array) -> ForceLaw:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from ..core.errors import (
     InputError,
     keep_pair,
+    require_each,
     require_finite,
     require_non_negative,
     require_number,
@@ -257,8 +258,7 @@ class RigidShaft(FlexibleRotor):
     feels_tilt: bool = False
 
     def __post_init__(self) -> None:
-        require_positive("mass", self.mass)
-        require_positive("diametral_inertia", self.diametral_inertia)
+        require_each(self, require_positive, "mass", "diametral_inertia")
         require_non_negative("polar_inertia", self.polar_inertia)
         require_finite("stations", [place for _, place in self.stations])
         if require_finite("unbalances", self.unbalances).shape != (
@@ -355,10 +355,8 @@ class JeffcottRotor(FlexibleRotor):
     disk_station: str = ""
 
     def __post_init__(self) -> None:
-        for name in ("mass", "journal_mass", "stiffness"):
-            require_positive(name, getattr(self, name))
-        for name in ("external_damping", "internal_damping", "unbalance"):
-            require_non_negative(name, getattr(self, name))
+        require_each(self, require_positive, "mass", "journal_mass", "stiffness")
+        require_each(self, require_non_negative, "external_damping", "internal_damping", "unbalance")
         require_number("unbalance_angle", self.unbalance_angle)
         check_motion(self)
 

@@ -11,7 +11,15 @@ from numpy.polynomial import Polynomial
 from numpy.polynomial.legendre import leggauss
 from numpy.typing import ArrayLike
 
-from ..core.errors import InputError, require_finite, require_non_negative, require_number, require_positive
+from ..core.errors import (
+    InputError,
+    require_each,
+    require_finite,
+    require_given,
+    require_non_negative,
+    require_number,
+    require_positive,
+)
 from ..core.inputs import in_si, quantities
 from ..core.model import Array
 
@@ -34,8 +42,7 @@ class ElasticMaterial:
     density: float
 
     def __post_init__(self) -> None:
-        for name in ("young_modulus", "shear_modulus", "density"):
-            require_positive(name, getattr(self, name))
+        require_each(self, require_positive, "young_modulus", "shear_modulus", "density")
 
     @property
     def poisson_ratio(self) -> float:
@@ -86,10 +93,8 @@ class ShaftElement:
 
     def __post_init__(self) -> None:
         require_positive("length", self.length)
-        require_non_negative("mass_damping", self.mass_damping)
-        require_non_negative("stiffness_damping", self.stiffness_damping)
-        require_number("axial_force", self.axial_force)
-        require_number("torque", self.torque)
+        require_each(self, require_non_negative, "mass_damping", "stiffness_damping")
+        require_each(self, require_number, "axial_force", "torque")
         outer, inner = self._ends
         for prefix, out, bore in zip(("", "end_"), outer, inner, strict=True):
             require_positive(f"{prefix}outer_diameter", out)
@@ -242,9 +247,7 @@ class Coupling:
     def __post_init__(self) -> None:
         require_positive("stiffness", self.stiffness)
         require_non_negative("tilt_stiffness", self.tilt_stiffness)
-        for name in ("axial_stiffness", "twist_stiffness"):
-            if getattr(self, name) is not None:
-                require_positive(name, getattr(self, name))
+        require_given(self, require_positive, "axial_stiffness", "twist_stiffness")
 
     def matrices(self, beam: Beam) -> BeamMatrices:
         """Return the matrices of one plane."""
@@ -523,10 +526,8 @@ class Disk:
     skew_angle: float = 0.0
 
     def __post_init__(self) -> None:
-        require_number("skew", self.skew)
-        require_number("skew_angle", self.skew_angle)
-        for name in ("mass", "diametral_inertia", "polar_inertia"):
-            require_non_negative(name, getattr(self, name))
+        require_each(self, require_number, "skew", "skew_angle")
+        require_each(self, require_non_negative, "mass", "diametral_inertia", "polar_inertia")
 
     @classmethod
     @in_si

@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ..core.errors import InputError, require_non_negative
+from ..core.errors import InputError, require_each, require_non_negative
 from ..core.inputs import quantities
 from ..core.model import Array
 from ..core.readable import Plottable
@@ -144,8 +144,9 @@ class ShaftRotor(Plottable, FlexibleRotor):
     def __post_init__(self) -> None:
         if all(isinstance(element, Coupling) for element in self.elements):
             raise InputError(f"elements must hold at least one ShaftElement, got {self.elements!r}")
-        for name in ("internal_damping", "mass_damping", "stiffness_damping", "loss_factor"):
-            require_non_negative(name, getattr(self, name))
+        require_each(
+            self, require_non_negative, "internal_damping", "mass_damping", "stiffness_damping", "loss_factor"
+        )
         _check_nodes(self)
         check_motion(self)
 

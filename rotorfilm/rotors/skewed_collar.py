@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.errors import require_number
+from ..core.errors import require_each, require_number
 from ..core.inputs import quantities
 from ..core.model import Array
 from ..core.signals import indices, names
@@ -52,8 +52,7 @@ class SkewedCollar(AroundStructure):
     def __post_init__(self) -> None:
         require_flexible(self.rotor)
         freedom_rows(self.rotor.assembly, self.station, TILTS)
-        for name in ("skew", "skew_angle"):
-            require_number(name, getattr(self, name))
+        require_each(self, require_number, "skew", "skew_angle")
 
     @cached_property
     def _places(self) -> list[int]:

@@ -208,8 +208,7 @@ class FlexibleRotor(Turning):
         """Return dx/dt at the time t [s] for the forces u [N] at the stations."""
         state, force, model = np.asarray(x, dtype=float), np.asarray(u, dtype=float), self.operators
         rate = model.steady @ state + self.profile.speed(t) * (model.by_speed @ state) + model.push @ force
-        total: Array = rate + model.weight + model.unbalance @ self.rotating(t)
-        return total
+        return rate + model.weight + model.unbalance @ self.rotating(t)
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the outputs; the input u is not used."""

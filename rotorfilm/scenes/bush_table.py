@@ -101,13 +101,12 @@ class BushTable(Taking):
             own = {f.name: getattr(self, f.name) for f in fields(part) if hasattr(self, f.name)} | values
             return replace(part, **{name: value for name, value in own.items() if value is not None})
 
-        bush: bushes.MeltingBush = given(
+        return given(
             of,
             geometry=given(of.geometry),
             liner=given(of.liner, conductivity=self.liner_conductivity),
             shaft=given(of.shaft, conductivity=self.shaft_conductivity),
         )
-        return bush
 
     def wear(self) -> bushes.BushWear:
         """Return the model with one state, for a load that does not fall."""

@@ -10,7 +10,7 @@ from typing import Annotated
 from ..bearings import damper as dampers
 from ..bearings.assemblies import Parallel, with_springs
 from ..bearings.films.geometry import FullFilm, HalfSommerfeld
-from ..core.errors import InputError, ValidityWarning, require_non_negative
+from ..core.errors import InputError, ValidityWarning, require_given, require_non_negative
 from .reading import Keyed, Taking, Variant, fields_of, made_from
 
 # `[damper.seals]`: seals at both ends of a squeeze film, by leakage, by their gap or by a leak test.
@@ -131,8 +131,7 @@ class DamperTable(Taking):
     def __post_init__(self) -> None:
         require_non_negative("stiffness", self.stiffness)
         self._require_offset()
-        if self.feed_flow is not None:
-            require_non_negative("feed_flow", self.feed_flow)
+        require_given(self, require_non_negative, "feed_flow")
         if self.supply is not None:
             self.conserved(self.supply)
         with warnings.catch_warnings(action="ignore", category=ValidityWarning):

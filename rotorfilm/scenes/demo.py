@@ -448,8 +448,7 @@ def plain_results(result: DemoResult) -> dict[str, Any]:
     kept = {f.name: getattr(result, f.name) for f in fields(result) if f.name not in ("fmus", "coupling")}
     kept["fmus"] = {name: path.name for name, path in result.fmus.items()}
     kept["coupling"] = {"observed_order": result.coupling.observed_order, "runs": runs}
-    plain: dict[str, Any] = to_plain(kept)
-    return plain
+    return to_plain(kept)
 
 
 def _without_trajectory(run: CoupledRun) -> dict[str, Any]:

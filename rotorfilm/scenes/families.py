@@ -69,8 +69,7 @@ def brought(place: str) -> Any:
 
 def table_of(name: str) -> type:
     """Return the dataclass of a family's table."""
-    found: type = brought(FAMILIES[name].table)
-    return found
+    return brought(FAMILIES[name].table)
 
 
 class SceneModels(NamedTuple):
@@ -129,8 +128,7 @@ def models_of(scene: Any, *alone: str) -> SceneModels:
             f"scene must have one of the tables {known} for FMUs, got {given}; in Python "
             "`export_fmu` takes any bearing, also a contact's `ContactLaw` and a bush's `BushWear`"
         )
-    found: SceneModels = brought(place)(scene)
-    return found
+    return brought(place)(scene)
 
 
 # Remarks on what a physics leaves out: a number, its limit, and what is said beyond it.

@@ -238,8 +238,7 @@ class JournalTable(ConservingTable, OiledTable):
         """Return the bearing, its film that conserves the oil, or its tilted journal; InputError if bad."""
         if self.tilt is not None:
             return HeldTilt(journal=feeling_tilt(self.bearing(), named=self.film is not None), tilt=self.tilt)
-        found: JournalBearing | JFOFilm = super().build()
-        return found
+        return super().build()
 
     def repeated_inputs(self, bearing: JournalBearing | JFOFilm | HeldTilt) -> tuple[BearingData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""

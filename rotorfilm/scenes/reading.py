@@ -387,8 +387,7 @@ def reader_of(makes: type, name: str) -> Reader:
     """Return the reader of a field: that of its annotation, or what its type and its unit ask for."""
     hint = _hints(makes)[name]
     if hasattr(hint, "__metadata__"):
-        found: Reader = hint.__metadata__[0]
-        return found
+        return hint.__metadata__[0]
     union = isinstance(hint, UnionType)
     kind, *others = [one for one in get_args(hint) if one is not NoneType] if union else [hint]
     many = get_args(kind) if get_origin(kind) is tuple else ()

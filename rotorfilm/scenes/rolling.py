@@ -12,7 +12,7 @@ import numpy as np
 
 from ..analysis import equilibrium
 from ..bearings import rolling
-from ..core.errors import InputError, RotorfilmError, ValidityWarning, require_positive
+from ..core.errors import InputError, RotorfilmError, ValidityWarning, require_given, require_positive
 from ..core.model import Array
 from ..core.progress import Report
 from ..core.readable import Readable
@@ -131,9 +131,7 @@ class BallTable(reading.Taking):
     roughness: float | None = None
 
     def __post_init__(self) -> None:
-        for name in ("viscosity", "pressure_coefficient", "roughness"):
-            if getattr(self, name) is not None:
-                require_positive(name, getattr(self, name))
+        require_given(self, require_positive, "viscosity", "pressure_coefficient", "roughness")
         if self.viscosity is not None and self.pressure_coefficient is None:
             raise InputError("pressure_coefficient must be given with a viscosity, got None")
         if self.arrangement is None:

@@ -366,8 +366,7 @@ class Scene:
     @property
     def journal_bearing(self) -> JournalBearing:
         """The bearing of `[journal]`; raises InputError if the scene has none."""
-        found: JournalBearing = self.required("journal", "a journal bearing").bearing()
-        return found
+        return self.required("journal", "a journal bearing").bearing()
 
     @property
     def rotor(self) -> RigidRotor:
@@ -395,8 +394,7 @@ class Scene:
 
     @property
     def _operation(self) -> shared_tables.OperationTable:
-        found: shared_tables.OperationTable = self.required("operation", "a speed and a load")
-        return found
+        return self.required("operation", "a speed and a load")
 
 
 def parse_scene(document: str, source: str) -> Scene:

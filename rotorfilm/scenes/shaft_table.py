@@ -16,7 +16,7 @@ from ..bearings.assemblies import Parallel
 from ..bearings.journal import JournalBearing, MapFilm, MomentCarryingJournal, ReynoldsFilm, TiltLevel
 from ..bearings.linear import LinearBearing
 from ..bearings.seal import AnnularSeal
-from ..core.errors import InputError, SceneError, brief, require_positive
+from ..core.errors import InputError, SceneError, brief, require_given, require_positive
 from ..core.inputs import nearest
 from ..core.limits import SHAFT_ELEMENTS, SPEEDS, require_at_most
 from ..core.model import Array
@@ -326,9 +326,8 @@ class CompressorTable:
 
     def __post_init__(self) -> None:
         require_positive("speed", self.speed)
-        for name in ("stage_speed", "average_density", "smallest_clearance", "largest_clearance"):
-            if getattr(self, name) is not None:
-                require_positive(name, getattr(self, name))
+        names = ("stage_speed", "average_density", "smallest_clearance", "largest_clearance")
+        require_given(self, require_positive, *names)
         if not self.stages:
             raise InputError("impellers or axial_stages must be at least one, got none")
 
@@ -442,8 +441,7 @@ class ShaftTable(reading.Taking):
     def __post_init__(self) -> None:
         if not self.bearings:
             raise InputError("bearings must be at least one, got none")
-        if self.highest_frequency is not None:
-            require_positive("highest_frequency", self.highest_frequency)
+        require_given(self, require_positive, "highest_frequency")
         require_at_most("elements", self.node_count - 1, SHAFT_ELEMENTS)
         for name in ("bearings", "disks", "unbalances", "probes", "tilt_springs"):
             for k, part in enumerate(getattr(self, name)):

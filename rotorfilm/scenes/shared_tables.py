@@ -15,7 +15,9 @@ from ..core.errors import (
     brief,
     lacked,
     require_count,
+    require_each,
     require_finite,
+    require_given,
     require_non_negative,
     require_number,
     require_positive,
@@ -58,10 +60,8 @@ class OperationTable:
 
     def __post_init__(self) -> None:
         require_finite("speed", self.speed)
-        if self.duration is not None:
-            require_positive("duration", self.duration)
-        if self.load is not None:
-            require_finite("load", self.load)
+        require_given(self, require_positive, "duration")
+        require_given(self, require_finite, "load")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,8 +93,7 @@ class CosimulationTable:
     revolutions: float = 10.0
 
     def __post_init__(self) -> None:
-        require_positive("macro_angle", self.macro_angle)
-        require_positive("revolutions", self.revolutions)
+        require_each(self, require_positive, "macro_angle", "revolutions")
         require_steps("revolutions / macro_angle", 2.0 * math.pi * self.revolutions, self)
 
 
@@ -185,9 +184,9 @@ class LubricantTable(reading.Taking):
     bulk_modulus: float = Lubricant.bulk_modulus
 
     def __post_init__(self) -> None:
-        for name in ("density", "heat_capacity", "conductivity", "thinning", "bulk_modulus"):
-            if getattr(self, name) is not None:
-                require_positive(name, getattr(self, name))
+        require_given(
+            self, require_positive, "density", "heat_capacity", "conductivity", "thinning", "bulk_modulus"
+        )
         require_non_negative("housing_conductance", self.housing_conductance)
         if not self.has_viscosity:
             return

@@ -15,7 +15,7 @@ from ..bearings.assemblies import Parallel
 from ..bearings.films.turbulence import stiffening
 from ..bearings.own_reaction import as_reaction
 from ..core.dynamic_stiffness import quasi_static
-from ..core.errors import EquilibriumError, InputError, require_number, require_positive
+from ..core.errors import EquilibriumError, InputError, require_given, require_number, require_positive
 from ..core.model import Array
 from ..core.port import Reaction, static_force
 from ..core.progress import Report, silent
@@ -76,9 +76,7 @@ class ThrustTable(OiledTable):
     smallest_film: float | None = None
 
     def __post_init__(self) -> None:
-        for name in ("play", "smallest_film"):
-            if getattr(self, name) is not None:
-                require_positive(name, getattr(self, name))
+        require_given(self, require_positive, "play", "smallest_film")
         self._require_load()
         mistaken = FIXED if self.tilts else PIVOTED
         where = "beside pivot_arc" if self.tilts else "without pivot_arc"

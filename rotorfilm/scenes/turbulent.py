@@ -49,8 +49,7 @@ def read_turbulence(where: str, value: Any) -> str | Turbulence:
     """Read "auto", "none", the name of a closure, or a table of a `Turbulence`."""
     if isinstance(value, str):
         return choose(where, value, CHOICES)
-    found: Turbulence = TABLE(where, value)
-    return found
+    return TABLE(where, value)
 
 
 def effect_of(table: Any) -> Turbulence | None:

@@ -78,8 +78,7 @@ def heated_film(
     case: HeatCase, *, cells: tuple[int, int] = REFERENCE_CELLS, layers: int = REFERENCE_LAYERS
 ) -> journal.HeatedState:
     """Return the film of a case under its load, with its bush, over so many cells and layers."""
-    found: journal.HeatedState = _warm(case, cells, journal.LayeredTemperature(layers)).state
-    return found
+    return _warm(case, cells, journal.LayeredTemperature(layers)).state
 
 
 def _warm(
