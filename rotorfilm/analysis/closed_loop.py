@@ -23,7 +23,7 @@ from ..core.inputs import arguments
 from ..core.model import Array, Dynamic, Linearization, Model
 from ..core.port import Bearings, Reaction, freedoms_of, inertial, mass_of, require_reaction, require_turning
 from ..core.readable import Drawable
-from ..core.results import Coefficients, Equilibrium, InertialCoefficients, added_mass
+from ..core.results import Equilibrium, added_mass
 from ..core.signals import force_names, indices, names
 from ..rotors import FlexibleRotor, Probe, ShaftRotor, Station, node_loads, require_flexible, translations
 from ..rotors.mounted import Mount, join
@@ -669,8 +669,10 @@ def rotor_states(
     structure = rotor.structure
     if structure.hysteresis is not None:
         raise InputError("loss_factor must be 0 for a state space, which hysteresis has not; see rotor_modes")
-    films = {name: film_states(film) for name, film in frequency_dependent_films(at).items()}
-    direct = replace(at, coefficients={**at.coefficients, **_direct(at, films)})
+    given = frequency_dependent_films(at)
+    films = {name: film_states(film) for name, film in given.items()}
+    held = {name: film.held(films[name].D) for name, film in given.items()}
+    direct = replace(at, coefficients={**at.coefficients, **held})
     mass, damping, stiffness = second_order(structure, direct)
     n, sizes = len(mass), [len(film.A) for film in films.values()]
     rows = {name: freedom_rows(structure, name, freedoms_of(at.coefficients[name])) for name in films}
@@ -711,22 +713,3 @@ def response_rows(rotor: FlexibleRotor, at: RotorEquilibrium) -> tuple[Array, li
         rows = [*rows, np.hstack([part @ felt for part in (film.stiffness, film.damping, added_mass(film))])]
         labels += [station_name(name, f"housing_{force}") for force in force_names(freedoms)]
     return np.vstack(rows), labels
-
-
-def _direct(at: RotorEquilibrium, films: dict[str, Linearization]) -> dict[str, Coefficients]:
-    """Return stiffness and damping of films whose states are held."""
-    held: dict[str, Coefficients] = {}
-    for name, film in films.items():
-        stiffness, damping = np.hsplit(-film.D, 2)
-        place, freedoms = at.coefficients[name].position, freedoms_of(at.coefficients[name])
-        held[name] = InertialCoefficients(
-            stiffness=stiffness,
-            damping=damping,
-            position=place,
-            speed=at.speed,
-            freedoms=freedoms,
-            mass=getattr(
-                frequency_dependent_films(at)[name].dynamic_stiffness, "mass", np.zeros_like(stiffness)
-            ),
-        )
-    return held

@@ -30,10 +30,13 @@ from ..core.errors import (
 from ..core.inputs import arguments
 from ..core.model import Array
 from ..core.readable import Drawable
-from ..core.results import Coefficients, Equilibrium, InertialCoefficients
+from ..core.results import Coefficients, Equilibrium, coefficients_of_slopes
 from ..core.sources import offered
 from .equilibrium import equilibria, equilibrium
 from .threads import one_blas_thread
+
+GROWTH_ROUNDOFF = 1e-9
+"""Growth rate / frequency of a motion that is roundoff."""
 
 
 @arguments
@@ -106,42 +109,25 @@ def coefficients_at(reaction: Any, rests: Sequence[Equilibrium]) -> list[Coeffic
     """Return `film_coefficients` at each of many equilibria: for a static force without heat all at once."""
     if states_rest(reaction) or port.is_warming(reaction) or port.inertial(reaction) or len(rests) < 2:
         return [film_coefficients(reaction, at.position, at.speed) for at in rests]
-    positions, n = np.array([at.position for at in rests]).T, len(port.freedoms_of(reaction))
+    positions, freedoms = np.array([at.position for at in rests]).T, port.freedoms_of(reaction)
     slopes = port.static_slopes(
         reaction, positions, np.zeros_like(positions), np.array([at.speed for at in rests])
     )
     return [
-        Coefficients(
-            stiffness=-own[:, :n],
-            damping=-own[:, n : 2 * n],
-            position=at.position,
-            speed=at.speed,
-            freedoms=port.freedoms_of(reaction),
-        )
+        coefficients_of_slopes(own, at.position, at.speed, freedoms)
         for own, at in zip(np.moveaxis(slopes, -1, 0), rests, strict=True)
     ]
 
 
 def _held(film: Any, position: Array, speed: float) -> Coefficients:
     """Return K and C of a film with its states, if there are some, held."""
-    n, still = len(position), np.zeros_like(position)
+    still, heavy = np.zeros_like(position), port.inertial(film)
     if states_rest(film):
         slopes = rest_linearization(film, position, speed).D
     else:
         slopes = port.static_slopes(film, position, still, speed)
-    found = Coefficients(
-        stiffness=-slopes[:, :n],
-        damping=-slopes[:, n : 2 * n],
-        position=position,
-        speed=speed,
-        freedoms=port.freedoms_of(film),
-    )
-    heavy = port.inertial(film)
-    return (
-        found
-        if heavy is None
-        else InertialCoefficients(**vars(found), mass=heavy.mass(position, still, speed))
-    )
+    mass = None if heavy is None else heavy.mass(position, still, speed)
+    return coefficients_of_slopes(slopes, position, speed, port.freedoms_of(film), mass)
 
 
 @arguments

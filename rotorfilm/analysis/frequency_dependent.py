@@ -19,9 +19,9 @@ from ..core.results import Coefficients, FrequencyDependentCoefficients, Inertia
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from . import rotor_matrices
+from .coefficients import GROWTH_ROUNDOFF
 from .modal_reduction import all_rows, models, usual_frequency
 from .rotor_equilibrium import RotorEquilibrium, rest
-from .whirl import GROWTH_ROUNDOFF
 
 REACH = 20.0
 """Frequency / speed up to which exponents are told apart in the phase; few faster ones feel the oil."""

@@ -17,7 +17,6 @@ from ..core.port import Bearings, freedoms_of
 from ..core.results import (
     Coefficients,
     FrequencyDependentCoefficients,
-    InertialCoefficients,
     added_mass,
 )
 from ..rotors import FlexibleRotor
@@ -145,14 +144,7 @@ def joined_whirls(
     for name, film in films.items():
         A, B, C, D = film.dynamic_stiffness.at
         n, rows = len(C), freedom_rows(structure, name, freedoms_of(film))
-        mass = getattr(film.dynamic_stiffness, "mass", np.zeros((n, n)))
-        parts = {
-            "stiffness": -D[:, :n],
-            "damping": -D[:, n : 2 * n],
-            "mass": mass,
-            "freedoms": freedoms_of(film),
-        }
-        held[name] = InertialCoefficients(**parts, position=film.position, speed=at.speed)
+        held[name] = film.held(D)
         columns.append(rows.T @ C)
         felt.append(np.hstack([B[:, :n] @ rows, B[:, n : 2 * n] @ rows]))
         own.append(A)

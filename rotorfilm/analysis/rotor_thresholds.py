@@ -19,12 +19,12 @@ from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..rotors import FlexibleRotor
 from . import modal_reduction
+from .coefficients import GROWTH_ROUNDOFF
 from .frequency_dependent import require_all_growing
 from .rotor_equilibrium import rest
 from .rotor_matrices import oscillates, value_error, whirl_near
 from .rotor_modes import RotorModes, bands_of, directions, motions_at, speeds_in_turn
 from .threads import one_blas_thread
-from .whirl import GROWTH_ROUNDOFF
 
 FURTHER = 1e-6
 """Part of a step by which a motion is seen to grow beyond its threshold."""

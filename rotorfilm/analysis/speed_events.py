@@ -16,12 +16,11 @@ from ..core.results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, freedom_rows
 from . import rotor_matrices
-from .coefficients import film_coefficients
+from .coefficients import GROWTH_ROUNDOFF, film_coefficients
 from .equilibrium import equilibrium
 from .rotor_equilibrium import RotorEquilibrium, rotor_equilibrium
 from .rotor_modes import RotorModes, critical_speeds, rotor_modes
 from .rotor_thresholds import rotor_threshold
-from .whirl import GROWTH_ROUNDOFF
 
 NEAR = 1.1
 """Critical speeds up to so many times the first are followed with it."""

@@ -44,12 +44,9 @@ from ..core.results import (
     WhirlThreshold,
 )
 from ..core.signals import PLANAR
-from .coefficients import coefficients_at, film_coefficients
+from .coefficients import GROWTH_ROUNDOFF, coefficients_at, film_coefficients
 from .equilibrium import checked_load, equilibrium, settled
 from .threads import one_blas_thread
-
-GROWTH_ROUNDOFF = 1e-9
-"""Growth rate / frequency that is roundoff."""
 
 _POINTS_PER_DECADE = 12
 _SPEED_FACTOR = 100.0

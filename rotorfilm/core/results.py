@@ -212,6 +212,32 @@ class InertialCoefficients(Coefficients):
     mass: Array
 
 
+def coefficients_of_slopes(
+    slopes: Array, position: Array, speed: float, freedoms: Sequence[str] = PLANAR, mass: Array | None = None
+) -> Coefficients:
+    """Return K = -dF/dq and C = -dF/dv of a film, with its added mass where one is given.
+
+    Parameters
+    ----------
+    slopes : ndarray, shape (n, 2 n or more) [N/m], [N s/m]
+        Derivatives of its force by places and rates.
+    position, speed : ndarray, shape (n,) [m], and float [rad/s]
+    freedoms : sequence of str
+    mass : ndarray, shape (n, n), optional [kg]
+    """
+    n = len(slopes)
+    stiffness, damping = -slopes[:, :n], -slopes[:, n : 2 * n]
+    given: dict[str, Any] = {
+        "stiffness": stiffness,
+        "damping": damping,
+        "position": position,
+        "freedoms": tuple(freedoms),
+    }
+    if mass is None:
+        return Coefficients(**given, speed=speed)
+    return InertialCoefficients(**given, speed=speed, mass=mass)
+
+
 def added_mass(film: Coefficients) -> Array:
     """Return the added mass of a film [kg], in the shape of its K and C: zeros where those are all."""
     return film.mass if isinstance(film, InertialCoefficients) else np.zeros_like(film.stiffness)
@@ -270,13 +296,13 @@ class FrequencyDependentCoefficients(ReducedCoefficients):
         s : complex [1/s]
         """
         K, slope = self.dynamic_stiffness(s)
-        return Coefficients(
-            stiffness=K - s * slope,
-            damping=slope,
-            position=self.position,
-            speed=self.speed,
-            freedoms=vars(self)["freedoms"],
-        )
+        slopes = np.hstack([s * slope - K, -slope])
+        return coefficients_of_slopes(slopes, self.position, self.speed, vars(self)["freedoms"])
+
+    def held(self, slopes: Array) -> Coefficients:
+        """Return K, C and added mass with the states of the film held, from its derivatives there."""
+        mass = getattr(self.dynamic_stiffness, "mass", np.zeros((len(slopes), len(slopes))))
+        return coefficients_of_slopes(slopes, self.position, self.speed, vars(self)["freedoms"], mass)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -24,7 +24,7 @@ from ..core.answers import (
     relative_change,
 )
 from ..core.port import Reaction
-from ..core.results import Coefficients
+from ..core.results import Coefficients, coefficients_of_slopes
 from ..rotors import FlexibleRotor, ShaftRotor
 from ..rotors.shaft_rotor import ShaftModel
 from ..scenes import film_heat
@@ -156,12 +156,7 @@ def rich_coefficients(
         if name in at.temperatures:
             film = film.at_temperature(at.temperatures[name])
         moved = corrected(film, equilibrium(film.reaction, load, at.speed), load, smooth=True)
-        found[name] = Coefficients(
-            stiffness=-moved.slopes[:, :2],
-            damping=-moved.slopes[:, 2:],
-            position=moved.position,
-            speed=at.speed,
-        )
+        found[name] = coefficients_of_slopes(moved.slopes, moved.position, at.speed)
         doubt = doubt or moved.doubt
     return found, doubt
 

@@ -13,8 +13,16 @@ from ..bearings.journal import JournalBearing, ReynoldsFilm, fitted_bearing, ten
 from ..core.errors import InputError, require_finite
 from ..core.model import Array
 from ..core.progress import Report, silent
-from ..core.results import Coefficients
-from . import journal_accuracy
+from ..core.results import Coefficients, coefficients_of_slopes
+from .journal_accuracy import (
+    LARGE,
+    SPEED,
+    TENSION,
+    chosen_rungs,
+    comparison_bearing,
+    random_states,
+    require_cells,
+)
 from .study import States, StudyModel, StudyResult, StudyRow
 
 THRESHOLD_CELLS = (384, 16)
@@ -84,19 +92,17 @@ def journal_stability(
     error. It is not divided, since the edge of the ruptured zone jumps and the derivatives are of first
     order.
     """
-    rungs = journal_accuracy.chosen_rungs(rungs)
+    rungs = chosen_rungs(rungs)
     ratios = _required_ratios(eccentricity_ratio)
-    journal_accuracy.require_cells(cells)
-    bearing = journal_accuracy.comparison_bearing(slenderness)
+    require_cells(cells)
+    bearing = comparison_bearing(slenderness)
     report(0.0, "two-dimensional reference")
     around, along = cells
     exact, rough = (
         _curve(fitted_bearing(bearing, AveragedFilm(film=ReynoldsFilm(cells=grid))), ratios)[0]
         for grid in (cells, (around // 2, along // 2))
     )
-    sample = journal_accuracy.random_states(
-        journal_accuracy.LARGE, count=TENSION_STATES, clearance=bearing.clearance
-    )
+    sample = random_states(LARGE, count=TENSION_STATES, clearance=bearing.clearance)
     found: list[StudyRow] = []
     for number, rung in enumerate(rungs):
         report((number + 1) / (len(rungs) + 1), f"whirl threshold by {rung.name}")
@@ -122,7 +128,7 @@ def _required_ratios(eccentricity_ratio: Sequence[float]) -> Array:
 
 def _static_states(bearing: JournalBearing, ratios: Array) -> States:
     position = bearing.clearance * np.stack([ratios, np.zeros_like(ratios)])
-    return States(position, np.zeros_like(position), np.full(len(ratios), journal_accuracy.SPEED))
+    return States(position, np.zeros_like(position), np.full(len(ratios), SPEED))
 
 
 def _curve(bearing: JournalBearing, ratios: Array) -> tuple[Parameters, tuple[str, ...], list[Coefficients]]:
@@ -130,21 +136,13 @@ def _curve(bearing: JournalBearing, ratios: Array) -> tuple[Parameters, tuple[st
     states = _static_states(bearing, ratios)
     force, slopes = bearing.force(*states), bearing.jacobian(*states)
     matrices = [
-        Coefficients(
-            stiffness=-slopes[:, :2, k],
-            damping=-slopes[:, 2:4, k],
-            position=states.position[:, k],
-            speed=journal_accuracy.SPEED,
-        )
-        for k in range(len(ratios))
+        coefficients_of_slopes(slopes[:, :, k], states.position[:, k], SPEED) for k in range(len(ratios))
     ]
     borders = [critical_mass(at) for at in matrices]
     parameters = tuple(
         None
         if border.mass is None
-        else speed_parameter(
-            speed=journal_accuracy.SPEED, clearance=bearing.clearance, mass=border.mass, load=load
-        )
+        else speed_parameter(speed=SPEED, clearance=bearing.clearance, mass=border.mass, load=load)
         for border, load in zip(borders, force.T, strict=True)
     )
     return parameters, tuple(border.reason for border in borders), matrices
@@ -159,7 +157,7 @@ def _points(
         tension(rung.law, *own.kinematics(*states), own.slenderness)
         for states in (_static_states(own, ratios), sample)
     )
-    share = float(np.mean(moving > journal_accuracy.TENSION))
+    share = float(np.mean(moving > TENSION))
     rows = zip(ratios.tolist(), *_curve(own, ratios), exact, still.tolist(), strict=True)
     for ratio, parameter, reason, at, right, pulled in rows:
         judged, gap = is_judged(right), _deviation(parameter, right)
