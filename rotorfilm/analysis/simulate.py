@@ -435,7 +435,7 @@ class Coupled:
 
     def shown(self, t: float, x: Array) -> Array:
         """Return the outputs of the rotor under all forces, which those of bearings with mass in it feel."""
-        if not any(map(inertial, getattr(self.rotor, "all_bearings", {}).values())):
+        if not any(map(port.inertial, getattr(self.rotor, "all_bearings", {}).values())):
             return self.sensed(t, x)
         return self.mounted.output(t, x, self._free)[: len(self.rotor.outputs)]
 
