@@ -269,6 +269,7 @@ def run_machine(path, outputs, start):
     return np.array([run[name] for name in shown])
 
 
+@pytest.mark.long
 @pytest.mark.closed_form
 def test_unbalances_of_a_machine_are_parameters_of_its_fmu(tmp_path):
     """Amounts and angles in two planes, set in one FMU, move it as the rotor that has them."""
