@@ -69,8 +69,9 @@ int rf_bush_tables(rf_bush *b, const rf_tables *tables, rf_message *why)
     return rf_say(why, RF_INVALID, "a bush must keep a clearance at its melting point, got %.9g", b->gap);
 }
 
-int rf_bush_parameters(rf_bush *b, const double *p, rf_message *why)
+int rf_bush_parameters(void *bush, const double *p, rf_message *why)
 {
+    rf_bush *b = bush;
     rf_bush next = *b;
     const double T = b->is.melting, f1 = p[RF_FRICTION + 1], f2 = p[RF_FRICTION + 2];
     const double inner = f2 > 0.0 ? fmin(fmax(-0.5 * f1 / f2, 0.0), T) : 0.0;

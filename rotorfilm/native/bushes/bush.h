@@ -37,7 +37,7 @@ typedef struct rf_bush {
 } rf_bush;
 
 int rf_bush_tables(rf_bush *bush, const rf_tables *tables, rf_message *why);
-int rf_bush_parameters(rf_bush *bush, const double *p, rf_message *why);
+int rf_bush_parameters(void *bush, const double *p, rf_message *why);
 
 /* a - sin(2 a)/2 and sin(a) - a cos(a), without cancellation. */
 void rf_arc(double a, double sin_a, double cos_a, double *segment, double *moment);

@@ -214,11 +214,9 @@ static int step(void *kernel, const rf_point *at, double dt, double *x, rf_messa
     return status == RF_OK ? rf_worn_advance(kernel, at->u, dt, x, why) : status;
 }
 
-static void destroy(void *kernel)
+static void release(void *kernel)
 {
-    rf_worn_bush *m = kernel;
-    free(m->profile.cosine);
-    free(m);
+    free(((rf_worn_bush *)kernel)->profile.cosine);
 }
 
 static int take_profile(rf_worn_bush *m, const rf_tables *tables, rf_message *why)
@@ -239,33 +237,25 @@ static int take_profile(rf_worn_bush *m, const rf_tables *tables, rf_message *wh
     return RF_OK;
 }
 
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    rf_worn_bush *m = calloc(1, sizeof *m);
-    if (!m || rf_bush_tables(&m->bush, tables, why) != RF_OK || take_profile(m, tables, why) != RF_OK) {
-        if (!m)
-            rf_say(why, RF_MEMORY, "no memory for a bush");
-        free(m);
-        return NULL;
-    }
+    rf_worn_bush *m = kernel;
     rf_bush_profile *p = &m->profile;
+    if (rf_bush_tables(&m->bush, tables, why) != RF_OK || take_profile(m, tables, why) != RF_OK)
+        return RF_INVALID;
     double *block = malloc((ARRAYS + RF_WEAR_WORK) * p->n * sizeof *block);
     double **const arrays[ARRAYS] = {&p->cosine, &p->sine,     &p->weight, &p->depth,
                                      &p->load,   &p->diagonal, &p->beside, &p->angle_slope};
-    if (!block) {
-        rf_say(why, RF_MEMORY, "no memory for a bush of %zu nodes", p->n);
-        free(m);
-        return NULL;
-    }
+    if (!block)
+        return rf_say(why, RF_MEMORY, "no memory for a bush of %zu nodes", p->n);
     for (size_t k = 0; k < ARRAYS; ++k)
         *arrays[k] = block + k * p->n;
     for (size_t k = 0; k < RF_WEAR_WORK; ++k)
         m->scratch[k] = block + (ARRAYS + k) * p->n;
     rf_bush_profile_nodes(p, m->center, m->extent);
     m->unit = m->bush.is.force_unit / m->bush.is.compliance;
-    const rf_sizes mine = {RF_REACTION_PARAMETERS, 5, 5, p->n, p->n + (m->local ? p->n : 1) + 1};
-    *sizes = mine;
-    return m;
+    *sizes = (rf_sizes){RF_REACTION_PARAMETERS, 5, 5, p->n, p->n + (m->local ? p->n : 1) + 1};
+    return RF_OK;
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)
@@ -289,8 +279,9 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
 }
 
 const rf_kernel_type rf_bush_reaction_type = {
-    .create = create,
-    .destroy = destroy,
+    .bytes = sizeof(rf_worn_bush),
+    .take = take_tables,
+    .release = release,
     .set_parameters = set_parameters,
     .output = output,
     .jacobian = jacobian,

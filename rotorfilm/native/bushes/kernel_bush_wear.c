@@ -243,25 +243,14 @@ static int step(void *kernel, const rf_point *at, double dt, double *x, rf_messa
 
 static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    static const rf_sizes mine = {RF_BUSH_PARAMETERS, 2, 7, 1, 2};
-    *sizes = mine;
+    *sizes = (rf_sizes){RF_BUSH_PARAMETERS, 2, 7, 1, 2};
     return rf_bush_tables(kernel, tables, why);
 }
 
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(rf_bush), take_tables, free, tables, sizes, why);
-}
-
-static int set_parameters(void *kernel, const double *p, rf_message *why)
-{
-    return rf_bush_parameters(kernel, p, why);
-}
-
 const rf_kernel_type rf_bush_wear_type = {
-    .create = create,
-    .destroy = free,
-    .set_parameters = set_parameters,
+    .bytes = sizeof(rf_bush),
+    .take = take_tables,
+    .set_parameters = rf_bush_parameters,
     .output = output,
     .jacobian = jacobian,
     .derivative = derivative,

@@ -51,13 +51,12 @@ typedef struct model {
     double stiffness;
 } model;
 
-static void destroy(void *kernel)
+static void release(void *kernel)
 {
     model *self = kernel;
     free(self->pressure);
     free(self->opening);
     free(self->fed);
-    free(self);
 }
 
 static int take_film(model *self, const rf_tables *tables, rf_message *why)
@@ -166,14 +165,8 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     if (take_wall(shape, tables, why) != RF_OK)
         return RF_INVALID;
     const size_t parameters = 1u + (self->is[SUPPLIED] != 0.0 ? 1u : 0u) + (self->is[SPRINGS] != 0.0 ? 1u : 0u);
-    const rf_sizes mine = {parameters, RF_MOTION, RF_OIL_ANSWERS, 0, 0};
-    *sizes = mine;
+    *sizes = (rf_sizes){parameters, RF_MOTION, RF_OIL_ANSWERS, 0, 0};
     return take_openings(self, opening->numbers, (size_t)n * m, count, why);
-}
-
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, destroy, tables, sizes, why);
 }
 
 /* Pressures over their unit, flows over theirs. */
@@ -232,8 +225,9 @@ static int output(const void *kernel, const rf_point *at, double *y, rf_message 
 }
 
 const rf_kernel_type rf_conserved_film_type = {
-    .create = create,
-    .destroy = destroy,
+    .bytes = sizeof(model),
+    .take = take_tables,
+    .release = release,
     .set_parameters = set_parameters,
     .output = output,
     .memory = memory,

@@ -2,8 +2,9 @@
 
 #include <math.h>
 
-int rf_scale_damper(rf_damper *damper, const double *p, rf_message *why)
+int rf_scale_damper(void *kernel, const double *p, rf_message *why)
 {
+    rf_damper *damper = kernel;
     const double stiffness = p[RF_STIFFNESS];
     if (!(stiffness >= 0.0 && stiffness < HUGE_VAL))
         return rf_say(why, RF_INVALID, "stiffness must be finite and not negative, got %.9g", stiffness);

@@ -14,10 +14,8 @@ typedef struct rf_damper {
     double stiffness;   /* of the springs [N/m] */
 } rf_damper;
 
-/* Take dimensions and springs, or RF_INVALID. */
-int rf_scale_damper(rf_damper *damper, const double *parameters, rf_message *why);
-
-/* The functions `output` and `jacobian` of an rf_kernel_type. */
+/* The functions `set_parameters`, which takes dimensions and springs, `output` and `jacobian` of an rf_kernel_type. */
+int rf_scale_damper(void *kernel, const double *parameters, rf_message *why);
 int rf_damper_output(const void *kernel, const rf_point *at, double *y, rf_message *why);
 int rf_damper_derivatives(const void *kernel, const rf_point *at, rf_jacobian *answer, rf_message *why);
 

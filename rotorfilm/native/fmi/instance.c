@@ -90,7 +90,7 @@ static int load(rf_instance *c, const char *token, const char *folder, rf_messag
         rf_say(why, RF_INVALID, "this library has no kernel %s", c->resource->kernel);
         return 0;
     }
-    c->kernel = c->type->create(&c->resource->tables, &c->sizes, why);
+    c->kernel = rf_create_kernel(c->type, &c->resource->tables, &c->sizes, why);
     if (!c->kernel || !fits(c, why))
         return 0;
     c->memory = c->type->memory ? c->type->memory(c->kernel) : 0;
@@ -134,8 +134,7 @@ void rf_free_instance(rf_instance *c)
 {
     if (!c)
         return;
-    if (c->kernel)
-        c->type->destroy(c->kernel);
+    rf_destroy_kernel(c->type, c->kernel);
     rf_free_resource(c->resource);
     free(c->values[RF_PARAMETER]);
     free(c->name);

@@ -27,8 +27,6 @@
    and across it; with one groove near the load the place may differ too. Q_1 leaves an opening and Q_2 arrives there with the journal at rest. The map
    is made for these openings and this length / diameter: radius and length are fixed. The oil is known between the
    temperatures of the table `oil_range`. Laminar, aligned. In vibration the temperature hardly moves. */
-#include <stdlib.h>
-
 #include "../films/journal_model.h"
 #include "../films/map_table.h"
 #include "heated_model.h"
@@ -59,11 +57,6 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     return RF_OK;
 }
 
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, free, tables, sizes, why);
-}
-
 static int set_parameters(void *kernel, const double *p, rf_message *why)
 {
     model *m = kernel;
@@ -78,8 +71,8 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
 }
 
 const rf_kernel_type rf_heated_grooved_journal_type = {
-    .create = create,
-    .destroy = free,
+    .bytes = sizeof(model),
+    .take = take_tables,
     .set_parameters = set_parameters,
     .output = rf_heated_output,
     .jacobian = rf_heated_derivatives,

@@ -23,9 +23,6 @@
    Validity: One temperature for the whole film: power usually within 30 % of a film with temperatures along
    and across it; with one groove near the load the place may differ too. The oil is known between the temperatures of the table `oil_range`; radius
    and length are fixed. Laminar, aligned, without grooves. In vibration the temperature hardly moves. */
-#include <stdlib.h>
-#include <string.h>
-
 #include "../films/journal_model.h"
 #include "../films/map_table.h"
 #include "../films/short_kernel.h"
@@ -65,11 +62,6 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     return rf_seek_table(tables, "coefficients") ? take_map(m, tables, why) : take_short(m);
 }
 
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, free, tables, sizes, why);
-}
-
 static int set_parameters(void *kernel, const double *p, rf_message *why)
 {
     model *m = kernel;
@@ -87,8 +79,8 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
 }
 
 const rf_kernel_type rf_heated_journal_type = {
-    .create = create,
-    .destroy = free,
+    .bytes = sizeof(model),
+    .take = take_tables,
     .set_parameters = set_parameters,
     .output = rf_heated_output,
     .jacobian = rf_heated_derivatives,

@@ -39,14 +39,6 @@ typedef struct rf_sizes {
     size_t parameters, inputs, outputs, states, events;
 } rf_sizes;
 
-/* What a kernel takes from its tables, and its sizes; RF_OK, or RF_INVALID or RF_MEMORY with the message written. */
-typedef int rf_take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why);
-
-/* A kernel of so many bytes, 0 but for what `take` takes from the tables. NULL, with the message written, where they do not
-   fit or memory is short. */
-void *rf_make_kernel(size_t bytes, rf_take_tables *take, void (*destroy)(void *kernel), const rf_tables *tables, rf_sizes *sizes,
-                     rf_message *why);
-
 /* Time [s], states or memory, and inputs. */
 typedef struct rf_point {
     double t;
@@ -60,9 +52,11 @@ typedef struct rf_jacobian {
 } rf_jacobian;
 
 typedef struct rf_kernel_type {
-    /* Make a kernel from its tables, which outlive it. NULL with the message where they do not fit. */
-    void *(*create)(const rf_tables *tables, rf_sizes *sizes, rf_message *why);
-    void (*destroy)(void *kernel);
+    /* Size of a kernel, whose bytes are zero before `take` reads the tables, which outlive it. `take` sets the sizes, and
+       answers RF_OK, or RF_INVALID or RF_MEMORY with the message written. `release` frees what `take` allocated. */
+    size_t bytes;
+    int (*take)(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why);
+    void (*release)(void *kernel);
 
     /* Take all parameters, or answer RF_INVALID: then nothing is asked before a call that succeeds. */
     int (*set_parameters)(void *kernel, const double *parameters, rf_message *why);
@@ -101,6 +95,10 @@ typedef struct rf_kernel_type {
 
 #define RF_KERNEL(name, libraries, picture) extern const rf_kernel_type rf_##name##_type;
 #include "kernel_list.h"
+
+/* Make a kernel from its tables: NULL, with the message written, where they do not fit or memory is short. */
+void *rf_create_kernel(const rf_kernel_type *type, const rf_tables *tables, rf_sizes *sizes, rf_message *why);
+void rf_destroy_kernel(const rf_kernel_type *type, void *kernel);
 
 /* The kernel of this name, NULL if this library has none. */
 const rf_kernel_type *rf_find_kernel(const char *name);

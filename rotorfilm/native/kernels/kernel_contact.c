@@ -49,13 +49,11 @@ typedef struct contacts {
 } contacts;
 
 
-static void destroy(void *kernel)
+static void release(void *kernel)
 {
     model *self = kernel;
-    if (self->linear)
-        rf_linear_type.destroy(self->linear);
+    rf_destroy_kernel(&rf_linear_type, self->linear);
     free(self->work);
-    free(self);
 }
 
 static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
@@ -65,7 +63,7 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
                    *push = motion ? rf_find_table(tables, "push", 2, why) : NULL,
                    *law = push ? rf_find_table(tables, "law", 1, why) : NULL;
     rf_sizes of_law = {0, 0, 0, 0, 0};
-    if (!law || !(self->linear = rf_linear_type.create(tables, &of_law, why)))
+    if (!law || !(self->linear = rf_create_kernel(&rf_linear_type, tables, &of_law, why)))
         return RF_INVALID;
     if (motion->extent[0] > MOST)
         return rf_say(why, RF_INVALID, "contacts must be %d at most, got %u", MOST, (unsigned)motion->extent[0]);
@@ -76,16 +74,10 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
         return rf_say(why, RF_INVALID, "the tables of contacts must fit each other, got %zu and %u contacts",
                       self->contacts, (unsigned)push->extent[1]);
     self->motion = motion->numbers, self->push = push->numbers, self->law = law->numbers;
-    const rf_sizes mine = {1, self->inputs, self->outputs, self->states, 2 * self->contacts};
-    *sizes = mine;
+    *sizes = (rf_sizes){1, self->inputs, self->outputs, self->states, 2 * self->contacts};
     const size_t size = self->states + self->contacts;
     self->work = malloc((size * size + 1) * sizeof *self->work);
     return self->work ? RF_OK : rf_say(why, RF_MEMORY, "no memory for %zu contacts", self->contacts);
-}
-
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, destroy, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *parameters, rf_message *why)
@@ -229,8 +221,9 @@ static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer,
 }
 
 const rf_kernel_type rf_contact_type = {
-    .create = create,
-    .destroy = destroy,
+    .bytes = sizeof(model),
+    .take = take_tables,
+    .release = release,
     .set_parameters = set_parameters,
     .output = output,
     .jacobian = jacobian,

@@ -21,8 +21,6 @@
    on as that of the film near the wall, or, where the map is no such film (porous cages, films without
    rupture), as a power of X, with a warning. Laminar, isothermal, aligned, without oil inertia. Where the
    rotor is at rest off the center the film force is zero and has no derivative. */
-#include <stdlib.h>
-
 #include "../films/damper_model.h"
 #include "../films/map_table.h"
 
@@ -33,7 +31,6 @@ typedef struct model {
 
 static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    static const rf_sizes mine = {RF_DAMPER_PARAMETERS, RF_DAMPER_INPUTS, 2, 0, 0};
     model *self = kernel;
     rf_journal *journal = &self->damper.journal;
     if (rf_take_map(&self->map, RF_PLAIN, "", tables, why) != RF_OK)
@@ -42,24 +39,14 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     journal->film = rf_map_film;
     journal->data = &self->map;
     journal->error = rf_map_error(&self->map);
-    *sizes = mine;
+    *sizes = (rf_sizes){RF_DAMPER_PARAMETERS, RF_DAMPER_INPUTS, 2, 0, 0};
     return RF_OK;
 }
 
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, free, tables, sizes, why);
-}
-
-static int set_parameters(void *kernel, const double *p, rf_message *why)
-{
-    return rf_scale_damper(kernel, p, why);
-}
-
 const rf_kernel_type rf_damper_type = {
-    .create = create,
-    .destroy = free,
-    .set_parameters = set_parameters,
+    .bytes = sizeof(model),
+    .take = take_tables,
+    .set_parameters = rf_scale_damper,
     .output = rf_damper_output,
     .jacobian = rf_damper_derivatives,
 };

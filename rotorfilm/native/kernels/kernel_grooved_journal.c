@@ -22,8 +22,6 @@
    last X, squeeze and the axis [rad]; beyond the last X the force goes on as that of the film near the
    wall, as far as the openings leave it, with a warning. Laminar, isothermal, aligned. Where w vanishes the
    force is zero and has no derivative. */
-#include <stdlib.h>
-
 #include "../films/journal_model.h"
 #include "../films/map_table.h"
 
@@ -45,11 +43,6 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     return RF_OK;
 }
 
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, free, tables, sizes, why);
-}
-
 static int set_parameters(void *kernel, const double *p, rf_message *why)
 {
     model *self = kernel;
@@ -63,8 +56,8 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
 }
 
 const rf_kernel_type rf_grooved_journal_type = {
-    .create = create,
-    .destroy = free,
+    .bytes = sizeof(model),
+    .take = take_tables,
     .set_parameters = set_parameters,
     .output = rf_journal_output,
     .jacobian = rf_journal_derivatives,

@@ -34,12 +34,11 @@ typedef struct model {
     double *slice, *spare;
 } model;
 
-static void destroy(void *kernel)
+static void release(void *kernel)
 {
     model *self = kernel;
     free(self->slice);
     free(self->spare);
-    free(self);
 }
 
 static size_t layer_size(const model *self)
@@ -65,11 +64,6 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     self->spare = malloc(layer_size(self) * sizeof *self->spare);
     *sizes = RF_JOURNAL_SIZES;
     return self->slice && self->spare ? RF_OK : rf_say(why, RF_MEMORY, "no memory for the map of a journal");
-}
-
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, destroy, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)
@@ -100,8 +94,9 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
 }
 
 const rf_kernel_type rf_journal_type = {
-    .create = create,
-    .destroy = destroy,
+    .bytes = sizeof(model),
+    .take = take_tables,
+    .release = release,
     .set_parameters = set_parameters,
     .output = rf_journal_output,
     .jacobian = rf_journal_derivatives,

@@ -28,11 +28,10 @@ typedef struct model {
     double *next, *work;
 } model;
 
-static void destroy(void *kernel)
+static void release(void *kernel)
 {
     model *self = kernel;
     free(self->transition);
-    free(self);
 }
 
 static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
@@ -51,8 +50,7 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
                       "A, B, C and D must fit each other, got %zu states, %zu inputs, %zu outputs", n, m, p);
     self->n = n, self->m = m, self->p = p;
     self->A = A->numbers, self->B = B->numbers, self->C = C->numbers, self->D = D->numbers;
-    const rf_sizes mine = {0, m, p, n, 0};
-    *sizes = mine;
+    *sizes = (rf_sizes){0, m, p, n, 0};
     const size_t size = n + m;
     self->transition = malloc((size * size + n + rf_exponential_work(size) + 1) * sizeof(double));
     if (!self->transition)
@@ -60,11 +58,6 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     self->next = self->transition + size * size;
     self->work = self->next + n;
     return RF_OK;
-}
-
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, destroy, tables, sizes, why);
 }
 
 static int require_finite(size_t count, const double *values, const char *what, double t, rf_message *why)
@@ -144,8 +137,9 @@ static int step(void *kernel, const rf_point *at, double dt, double *x, rf_messa
 }
 
 const rf_kernel_type rf_linear_type = {
-    .create = create,
-    .destroy = destroy,
+    .bytes = sizeof(model),
+    .take = take_tables,
+    .release = release,
     .output = output,
     .jacobian = jacobian,
     .derivative = derivative,

@@ -24,7 +24,6 @@
    aligned. Where a rotor in a film that ruptures is at rest off the center, the force is zero and has no
    derivative. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "../films/journal_model.h"
 #include "../films/map_table.h"
@@ -103,14 +102,8 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
         rf_map_to_wall(&self->map);
         to->journal.error = rf_map_error(&self->map);
     }
-    const rf_sizes mine = {PARAMETERS, INPUTS, self->heavy ? 5 : 2, 0, 0};
-    *sizes = mine;
+    *sizes = (rf_sizes){PARAMETERS, INPUTS, self->heavy ? 5 : 2, 0, 0};
     return to->zone != 0.0 ? take_zone(to, tables, why) : RF_OK;
-}
-
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, free, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)
@@ -166,8 +159,8 @@ static int derivatives(const void *kernel, const rf_point *at, rf_jacobian *give
 }
 
 const rf_kernel_type rf_oil_damper_type = {
-    .create = create,
-    .destroy = free,
+    .bytes = sizeof(model),
+    .take = take_tables,
     .set_parameters = set_parameters,
     .output = output,
     .jacobian = derivatives,

@@ -22,7 +22,6 @@
    Reynolds number, at which the viscosity counts too; no loss nor inertia at a step, no inlet pressure. Arcs, preloads and the
    recesses with their depth in m are fixed. Where nothing drives the film of a pad the force has no derivative. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "../films/journal_model.h"
 #include "../grids/recess.h"
@@ -36,7 +35,7 @@
 typedef struct model {
     rf_journal journal; /* first, as journal_model.h asks: dimensions are checked and explained as a journal's */
     rf_recess bearing;
-    rf_recess_pad *pads;
+    rf_recess_pad pads[MOST_PADS];
 } model;
 
 static int is_even_count(double number)
@@ -80,9 +79,6 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     if (count < 1 || count > MOST_PADS || pads->extent[1] != COLUMNS || extrapolated->extent[0] != 1)
         return rf_say(why, RF_INVALID, "table pads must be 1 to %u x %u, got %u x %u", MOST_PADS, COLUMNS,
                       (unsigned)count, (unsigned)pads->extent[1]);
-    self->pads = malloc(count * sizeof *self->pads);
-    if (!self->pads)
-        return rf_say(why, RF_MEMORY, "no memory for a bearing");
     for (uint32_t k = 0; k < count; ++k) {
         if (!take_pad(pads->numbers + k * COLUMNS, self->pads + k))
             return rf_say(why, RF_INVALID, "pad %u must have its recess on its arc, and even counts of cells on both "
@@ -95,17 +91,6 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
         return RF_INVALID;
     *sizes = RF_JOURNAL_SIZES;
     return RF_OK;
-}
-
-static void destroy(void *kernel)
-{
-    free(((model *)kernel)->pads);
-    free(kernel);
-}
-
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, destroy, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)
@@ -152,8 +137,8 @@ static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer,
 }
 
 const rf_kernel_type rf_pressure_dam_type = {
-    .create = create,
-    .destroy = destroy,
+    .bytes = sizeof(model),
+    .take = take_tables,
     .set_parameters = set_parameters,
     .output = output,
     .jacobian = jacobian,

@@ -145,15 +145,9 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     return rf_take_mobility(&self->ring.mobility, tables, why) == RF_OK ? take_unit(self, tables, why) : RF_INVALID;
 }
 
-static void destroy(void *kernel)
+static void release(void *kernel)
 {
     free(((model *)kernel)->memory);
-    free(kernel);
-}
-
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, destroy, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)
@@ -178,8 +172,9 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
 }
 
 const rf_kernel_type rf_reynolds_journal_type = {
-    .create = create,
-    .destroy = destroy,
+    .bytes = sizeof(model),
+    .take = take_tables,
+    .release = release,
     .set_parameters = set_parameters,
     .output = rf_journal_output,
     .jacobian = rf_journal_derivatives,

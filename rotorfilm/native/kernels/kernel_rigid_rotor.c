@@ -44,11 +44,10 @@ typedef struct model {
     rf_profile profile;
 } model;
 
-static void destroy(void *kernel)
+static void release(void *kernel)
 {
     model *self = kernel;
     rf_free_profile(&self->profile);
-    free(self);
 }
 
 static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
@@ -57,14 +56,8 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     if (rf_take_profile(&self->profile, tables, why) != RF_OK)
         return RF_INVALID;
     self->inputs = rf_find_table(tables, "law", 1, why) ? LAW_INPUTS : 2;
-    const rf_sizes mine = {self->profile.points == 1 ? PARAMETERS : SPEED, self->inputs, 5, 4, 0};
-    *sizes = mine;
+    *sizes = (rf_sizes){self->profile.points == 1 ? PARAMETERS : SPEED, self->inputs, 5, 4, 0};
     return RF_OK;
-}
-
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, destroy, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)
@@ -168,8 +161,9 @@ static double next_event(const void *kernel, double t)
 }
 
 const rf_kernel_type rf_rigid_rotor_type = {
-    .create = create,
-    .destroy = destroy,
+    .bytes = sizeof(model),
+    .take = take_tables,
+    .release = release,
     .set_parameters = set_parameters,
     .output = output,
     .jacobian = jacobian,

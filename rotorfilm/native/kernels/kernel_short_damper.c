@@ -25,7 +25,6 @@
    they carry the static load. Laminar, isothermal, aligned, without oil inertia.
    Where a rotor is at rest in a ruptured film without feed, the film force is zero and has no derivative. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "../films/damper_model.h"
 #include "../films/squeeze_film.h"
@@ -41,7 +40,6 @@ typedef struct model {
 
 static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    static const rf_sizes mine = {PARAMETERS, RF_DAMPER_INPUTS, 2, 0, 0};
     model *self = kernel;
     if (rf_take_squeeze(&self->film, tables, why) != RF_OK)
         return RF_INVALID;
@@ -52,13 +50,8 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     self->film.feed = self->feed;
     self->damper.journal.film = rf_squeeze_film;
     self->damper.journal.data = &self->film;
-    *sizes = mine;
+    *sizes = (rf_sizes){PARAMETERS, RF_DAMPER_INPUTS, 2, 0, 0};
     return RF_OK;
-}
-
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, free, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)
@@ -68,7 +61,7 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     for (int i = INFLOW; i < PARAMETERS; ++i)
         if (!isfinite(p[i]))
             return rf_say(why, RF_INVALID, "%s must be finite, got %.9g", NAMES[i - INFLOW], p[i]);
-    if (rf_scale_damper(&self->damper, p, why) != RF_OK)
+    if (rf_scale_damper(kernel, p, why) != RF_OK)
         return RF_INVALID;
     const double c = p[RF_CLEARANCE], length = p[RF_LENGTH], mu = p[RF_VISCOSITY], thickness = self->cage[1];
     const double through = thickness > 0.0 ? self->cage[0] * p[SUPPLY] / (mu * thickness) : p[INFLOW];
@@ -81,8 +74,8 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
 }
 
 const rf_kernel_type rf_short_damper_type = {
-    .create = create,
-    .destroy = free,
+    .bytes = sizeof(model),
+    .take = take_tables,
     .set_parameters = set_parameters,
     .output = rf_damper_output,
     .jacobian = rf_damper_derivatives,

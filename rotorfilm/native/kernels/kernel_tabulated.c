@@ -26,10 +26,9 @@ typedef struct model {
     double *speeds; /* m of them, then for each entry m values and m slopes */
 } model;
 
-static void destroy(void *kernel)
+static void release(void *kernel)
 {
     free(((model *)kernel)->speeds);
-    free(kernel);
 }
 
 static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
@@ -41,15 +40,9 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     if (!(*size >= 1.0 && *size <= MOST))
         return rf_say(why, RF_INVALID, "size must be within 1 and %d, got %.9g", MOST, *size);
     self->m = (size_t)*size;
-    const rf_sizes mine = {self->m * (1 + ENTRIES), INPUTS, 2, 0, 0};
-    *sizes = mine;
+    *sizes = (rf_sizes){self->m * (1 + ENTRIES), INPUTS, 2, 0, 0};
     self->speeds = calloc(self->m * (1 + 2 * ENTRIES), sizeof *self->speeds);
     return self->speeds ? RF_OK : rf_say(why, RF_MEMORY, "no memory for %zu speeds", self->m);
-}
-
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, destroy, tables, sizes, why);
 }
 
 /* The slope at an end: of the parabola, but not against the first chord, nor beyond three times it where the chords turn. */
@@ -161,8 +154,9 @@ static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer,
 }
 
 const rf_kernel_type rf_tabulated_type = {
-    .create = create,
-    .destroy = destroy,
+    .bytes = sizeof(model),
+    .take = take_tables,
+    .release = release,
     .set_parameters = set_parameters,
     .output = output,
     .jacobian = jacobian,

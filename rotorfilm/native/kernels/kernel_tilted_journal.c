@@ -23,7 +23,6 @@
    a warning. Laminar, isothermal, without grooves. Where w vanishes off the center the force is zero and has no
    derivative. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "../films/journal_model.h"
 #include "../films/map_table.h"
@@ -59,7 +58,6 @@ static int take_tilts(model *self, const rf_tables *tables, rf_message *why)
 
 static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    static const rf_sizes mine = {4, STATE, 4, 0, 0};
     model *self = kernel;
     const double *range, *share;
     rf_message none;
@@ -75,13 +73,8 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     self->tilted.aligned = rf_journal_at;
     self->tilted.of = &self->journal;
     self->tilted.share = *share;
-    *sizes = mine;
+    *sizes = (rf_sizes){4, STATE, 4, 0, 0};
     return rf_find_table(tables, "tilt_map", 1, &none) ? take_tilts(self, tables, why) : RF_OK;
-}
-
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, free, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)
@@ -127,8 +120,8 @@ static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer,
 }
 
 const rf_kernel_type rf_tilted_journal_type = {
-    .create = create,
-    .destroy = free,
+    .bytes = sizeof(model),
+    .take = take_tables,
     .set_parameters = set_parameters,
     .output = output,
     .jacobian = jacobian,

@@ -22,7 +22,6 @@
    beyond the last y it stays, with a warning. Isothermal, aligned, without grooves, with closures that are linear in
    the pressure. Where w vanishes off the center the force is zero and has no derivative. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "../films/journal_model.h"
 #include "../films/map_table.h"
@@ -49,11 +48,6 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     return RF_OK;
 }
 
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, free, tables, sizes, why);
-}
-
 static int set_parameters(void *kernel, const double *p, rf_message *why)
 {
     model *self = kernel;
@@ -67,8 +61,8 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
 }
 
 const rf_kernel_type rf_turbulent_journal_type = {
-    .create = create,
-    .destroy = free,
+    .bytes = sizeof(model),
+    .take = take_tables,
     .set_parameters = set_parameters,
     .output = rf_journal_output,
     .jacobian = rf_journal_derivatives,

@@ -49,17 +49,22 @@ const double *rf_numbers(const rf_tables *tables, const char *name, uint32_t cou
     return found ? found->numbers : NULL;
 }
 
-void *rf_make_kernel(size_t bytes, rf_take_tables *take, void (*destroy)(void *kernel), const rf_tables *tables, rf_sizes *sizes,
-                     rf_message *why)
+void *rf_create_kernel(const rf_kernel_type *type, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    void *kernel = calloc(1, bytes);
+    void *kernel = calloc(1, type->bytes);
     if (!kernel)
         rf_say(why, RF_MEMORY, "no memory for a kernel");
-    else if (take(kernel, tables, sizes, why) == RF_OK)
+    else if (type->take(kernel, tables, sizes, why) == RF_OK)
         return kernel;
-    else
-        destroy(kernel);
+    rf_destroy_kernel(type, kernel);
     return NULL;
+}
+
+void rf_destroy_kernel(const rf_kernel_type *type, void *kernel)
+{
+    if (kernel && type->release)
+        type->release(kernel);
+    free(kernel);
 }
 
 int rf_say(rf_message *message, int status, const char *format, ...)

@@ -82,7 +82,7 @@ rf_own *rf_open_kernel(const char *name, const rf_tables *tables, const double *
     own->tables = *tables;
     if (!own->type)
         rf_say(why, RF_INVALID, "this library has no kernel %s", name);
-    own->kernel = own->type ? own->type->create(&own->tables, &own->sizes, why) : NULL;
+    own->kernel = own->type ? rf_create_kernel(own->type, &own->tables, &own->sizes, why) : NULL;
     if (own->kernel
         && (!own->type->set_parameters || own->type->set_parameters(own->kernel, parameters, why) == RF_OK)
         && allocate(own))
@@ -93,8 +93,7 @@ rf_own *rf_open_kernel(const char *name, const rf_tables *tables, const double *
 
 void rf_close_kernel(rf_own *own)
 {
-    if (own->kernel)
-        own->type->destroy(own->kernel);
+    rf_destroy_kernel(own->type, own->kernel);
     free(own->x);
     free(own);
 }

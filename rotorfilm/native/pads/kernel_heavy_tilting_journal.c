@@ -23,14 +23,15 @@
 #include "../solvers/integrate.h"
 #include "tilting_model.h"
 
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    return rf_create_tilting(tables, 1, sizes, why);
+    return rf_take_tilting(kernel, tables, 1, sizes, why);
 }
 
 const rf_kernel_type rf_heavy_tilting_journal_type = {
-    .create = create,
-    .destroy = rf_destroy_tilting,
+    .bytes = sizeof(rf_tilting_model),
+    .take = take_tables,
+    .release = rf_release_tilting,
     .set_parameters = rf_set_tilting,
     .output = rf_tilting_output,
     .jacobian = rf_tilting_derivatives,

@@ -24,7 +24,6 @@
    has no derivative. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "../films/journal_model.h"
 #include "../films/lobes.h"
@@ -78,11 +77,6 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     return RF_OK;
 }
 
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, free, tables, sizes, why);
-}
-
 static int set_parameters(void *kernel, const double *p, rf_message *why)
 {
     model *self = kernel;
@@ -124,8 +118,8 @@ static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer,
 }
 
 const rf_kernel_type rf_lobed_journal_type = {
-    .create = create,
-    .destroy = free,
+    .bytes = sizeof(model),
+    .take = take_tables,
     .set_parameters = set_parameters,
     .output = output,
     .jacobian = jacobian,

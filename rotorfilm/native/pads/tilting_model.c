@@ -7,30 +7,16 @@
 #include "../films/journal_model.h"
 #include "../solvers/dense.h"
 #include "../films/map_table.h"
-#include "tilting.h"
-
-#define MOST_PADS 50
 
 enum { EXTENT, OFFSET, PRELOAD, SPRING, INERTIA, MASS, SLENDERNESS, NUMBERS };
 
-typedef struct model {
-    rf_tilting bearing;
-    rf_map map;
-    double slenderness;
-    size_t states, outputs;
-    double pivots[2 * MOST_PADS];
-    double rates[4 * MOST_PADS], forces[2 + MOST_PADS]; /* of one point */
-    double *inverse, *matrix, *spare;                   /* (n, n), (n, n), n of pads with inertia */
-    double *by[4];                                      /* B, C, D where only A is asked for */
-} model;
-
 /* Kernels are given as constant, but their scratch space is written. */
-static model *writable(const void *kernel)
+static rf_tilting_model *writable(const void *kernel)
 {
-    return (model *)kernel;
+    return (rf_tilting_model *)kernel;
 }
 
-static int take_pads(model *m, const rf_tables *tables, int inertia, rf_message *why)
+static int take_pads(rf_tilting_model *m, const rf_tables *tables, int inertia, rf_message *why)
 {
     const rf_table *pads = rf_find_table(tables, "pads", 1, why);
     const rf_table *pivots = pads ? rf_find_table(tables, "pivots", 1, why) : NULL;
@@ -38,8 +24,8 @@ static int take_pads(model *m, const rf_tables *tables, int inertia, rf_message 
         return RF_INVALID;
     const double *n = pads->numbers;
     const uint32_t count = pivots->extent[0];
-    if (pads->extent[0] != NUMBERS || count < 1 || count > MOST_PADS)
-        return rf_say(why, RF_INVALID, "pads must have %d numbers and 1 to %d pivots, got %u and %u", NUMBERS, MOST_PADS,
+    if (pads->extent[0] != NUMBERS || count < 1 || count > RF_MOST_TILTING)
+        return rf_say(why, RF_INVALID, "pads must have %d numbers and 1 to %d pivots, got %u and %u", NUMBERS, RF_MOST_TILTING,
                       (unsigned)pads->extent[0], (unsigned)count);
     const int whole = n[EXTENT] > 0.0 && n[OFFSET] > 0.0 && n[OFFSET] < 1.0 && n[PRELOAD] < 1.0 && n[SPRING] >= 0.0
                       && (inertia ? n[INERTIA] > 0.0 : n[INERTIA] == 0.0) && n[MASS] >= 0.0 && n[SLENDERNESS] > 0.0;
@@ -64,7 +50,7 @@ static int take_pads(model *m, const rf_tables *tables, int inertia, rf_message 
     return RF_OK;
 }
 
-static int allocate(model *m, rf_message *why)
+static int allocate(rf_tilting_model *m, rf_message *why)
 {
     const size_t n = m->states;
     double *next = m->inverse = malloc((2 * n * n + n + 5 * n + m->outputs * (n + 5)) * sizeof(double));
@@ -78,32 +64,23 @@ static int allocate(model *m, rf_message *why)
     return RF_OK;
 }
 
-void *rf_create_tilting(const rf_tables *tables, int inertia, rf_sizes *sizes, rf_message *why)
+int rf_take_tilting(rf_tilting_model *m, const rf_tables *tables, int inertia, rf_sizes *sizes, rf_message *why)
 {
-    model *m = calloc(1, sizeof *m);
-    if (!m) {
-        rf_say(why, RF_MEMORY, "no memory for a journal");
-        return NULL;
-    }
     if (rf_take_map(&m->map, RF_PAD, "", tables, why) != RF_OK || take_pads(m, tables, inertia, why) != RF_OK
-        || allocate(m, why) != RF_OK) {
-        rf_destroy_tilting(m);
-        return NULL;
-    }
+        || allocate(m, why) != RF_OK)
+        return RF_INVALID;
     *sizes = (rf_sizes){RF_JOURNAL_SIZES.parameters, 5, m->outputs, m->states, 0};
-    return m;
+    return RF_OK;
 }
 
-void rf_destroy_tilting(void *kernel)
+void rf_release_tilting(void *kernel)
 {
-    model *m = kernel;
-    free(m->inverse);
-    free(m);
+    free(((rf_tilting_model *)kernel)->inverse);
 }
 
 int rf_set_tilting(void *kernel, const double *p, rf_message *why)
 {
-    model *m = kernel;
+    rf_tilting_model *m = kernel;
     rf_journal scaled = {NULL, NULL, 0.0, 0.0, 0.0, 0};
     if (rf_scale_journal(&scaled, p, why) != RF_OK
         || rf_judge_slenderness(m->slenderness, "map of a pad", p, why) != RF_OK)
@@ -134,7 +111,7 @@ static int explain(int status, size_t pad, const double *u, rf_message *why)
 
 int rf_tilting_output(const void *kernel, const rf_point *at, double *y, rf_message *why)
 {
-    model *m = writable(kernel);
+    rf_tilting_model *m = writable(kernel);
     size_t pad;
     const int status = rf_tilting_at(&m->bearing, at->u, at->x, m->rates, y, NULL, &pad);
     return explain(status, pad, at->u, why);
@@ -142,7 +119,7 @@ int rf_tilting_output(const void *kernel, const rf_point *at, double *y, rf_mess
 
 int rf_tilting_derivative(const void *kernel, const rf_point *at, double *dx, rf_message *why)
 {
-    model *m = writable(kernel);
+    rf_tilting_model *m = writable(kernel);
     size_t pad;
     const int status = rf_tilting_at(&m->bearing, at->u, at->x, dx, m->forces, NULL, &pad);
     return explain(status, pad, at->u, why);
@@ -150,7 +127,7 @@ int rf_tilting_derivative(const void *kernel, const rf_point *at, double *dx, rf
 
 int rf_tilting_derivatives(const void *kernel, const rf_point *at, rf_jacobian *answer, rf_message *why)
 {
-    model *m = writable(kernel);
+    rf_tilting_model *m = writable(kernel);
     const rf_tilting_slopes slopes = {answer->A, answer->B, answer->C, answer->D};
     size_t pad;
     const int status = rf_tilting_at(&m->bearing, at->u, at->x, m->rates, m->forces, &slopes, &pad);
@@ -159,7 +136,7 @@ int rf_tilting_derivatives(const void *kernel, const rf_point *at, rf_jacobian *
 
 int rf_tilting_factorize(void *kernel, const rf_point *at, double shift, rf_message *why)
 {
-    model *m = kernel;
+    rf_tilting_model *m = kernel;
     const size_t n = m->states;
     const rf_tilting_slopes slopes = {m->matrix, m->by[1], m->by[2], m->by[3]};
     size_t pad;
@@ -178,7 +155,7 @@ int rf_tilting_factorize(void *kernel, const rf_point *at, double shift, rf_mess
 
 void rf_tilting_solve(void *kernel, double *b)
 {
-    model *m = kernel;
+    rf_tilting_model *m = kernel;
     memset(m->spare, 0, m->states * sizeof(double));
     rf_add_product(m->states, m->states, 1.0, m->inverse, b, m->spare);
     memcpy(b, m->spare, m->states * sizeof(double));
@@ -186,7 +163,7 @@ void rf_tilting_solve(void *kernel, double *b)
 
 void rf_tilting_drift(const void *kernel, const rf_point *at, double *slope)
 {
-    const model *m = kernel;
+    const rf_tilting_model *m = kernel;
     (void)at;
     memset(slope, 0, m->states * sizeof(double));
 }

@@ -24,7 +24,6 @@
    F_c and M are zero. The cage stands at the angle that is given. Beyond a contact pressure of 4200 MPa, and where the
    gyroscopic moment asks for more than 0.9 of the traction coefficient (more than 0.06 under race control), there is a
    warning. */
-#include <stdlib.h>
 
 #include "ball_tables.h"
 
@@ -37,20 +36,14 @@ typedef struct model {
 
 static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    static const rf_sizes mine = {PARAMETERS, 5, 2, 0, 0};
     model *self = kernel;
     const double *law;
-    *sizes = mine;
+    *sizes = (rf_sizes){PARAMETERS, 5, 2, 0, 0};
     if (rf_take_balls(tables, 2, &self->tables, &self->journal.balls, &law, why))
         return RF_INVALID;
     sizes->parameters += rf_ball_law_parameters(&self->journal.balls);
     self->journal.is_free = law[1] != 0.0;
     return RF_OK;
-}
-
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, free, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)
@@ -89,8 +82,8 @@ static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer,
 }
 
 const rf_kernel_type rf_ball_bearing_type = {
-    .create = create,
-    .destroy = free,
+    .bytes = sizeof(model),
+    .take = take_tables,
     .set_parameters = set_parameters,
     .output = output,
     .jacobian = jacobian,

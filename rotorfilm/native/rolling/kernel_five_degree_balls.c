@@ -46,10 +46,9 @@ typedef struct model {
 
 static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    static const rf_sizes mine = {PARAMETERS, INPUTS, RF_BALL_DEGREES, STATES, 0};
     model *self = kernel;
     const double *law;
-    *sizes = mine;
+    *sizes = (rf_sizes){PARAMETERS, INPUTS, RF_BALL_DEGREES, STATES, 0};
     if (rf_take_balls(tables, 1, &self->tables, &self->balls, &law, why))
         return RF_INVALID;
     sizes->parameters += rf_ball_law_parameters(&self->balls);
@@ -60,16 +59,10 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     return self->each ? RF_OK : rf_say(why, RF_MEMORY, "no memory for %zu balls", self->count);
 }
 
-static void destroy(void *kernel)
+static void release(void *kernel)
 {
     model *self = kernel;
     free(self->each);
-    free(self);
-}
-
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, destroy, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)
@@ -157,8 +150,9 @@ static int jacobian(const void *kernel, const rf_point *point, rf_jacobian *answ
 }
 
 const rf_kernel_type rf_five_degree_balls_type = {
-    .create = create,
-    .destroy = destroy,
+    .bytes = sizeof(model),
+    .take = take_tables,
+    .release = release,
     .set_parameters = set_parameters,
     .output = output,
     .derivative = derivative,

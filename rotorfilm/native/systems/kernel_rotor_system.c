@@ -35,16 +35,6 @@
 #include "../solvers/integrate.h"
 #include "mounted.h"
 
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_mounted_create(tables, sizes, why);
-}
-
-static void destroy(void *kernel)
-{
-    rf_mounted_destroy(kernel);
-}
-
 /* The unbalance of all planes, amounts and angles p, beside the fixed one. */
 static void set_unbalance(rf_mounted *self, const double *p)
 {
@@ -345,26 +335,22 @@ static int factorize(void *kernel, const rf_point *at, double shift, rf_message 
     return rf_mounted_close_loop(self, why) == RF_OK ? status : RF_NOT_FINITE;
 }
 
-static void solve(void *kernel, double *b)
-{
-    rf_mounted_solve(kernel, b);
-}
-
 static double next_event(const void *kernel, double t)
 {
     return rf_next_point(&((const rf_mounted *)kernel)->profile, t);
 }
 
 const rf_kernel_type rf_rotor_system_type = {
-    .create = create,
-    .destroy = destroy,
+    .bytes = sizeof(rf_mounted),
+    .take = rf_mounted_take,
+    .release = rf_mounted_release,
     .set_parameters = set_parameters,
     .output = output,
     .jacobian = jacobian,
     .derivative = derivative,
     .method = &rf_rodas,
     .factorize = factorize,
-    .solve = solve,
+    .solve = rf_mounted_solve,
     .drift = drift,
     .next_event = next_event,
 };

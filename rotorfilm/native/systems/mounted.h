@@ -32,13 +32,14 @@ typedef struct rf_mounted {
     double shift, speed;                              /* of the inverse; shift 0 as long as there is none */
 } rf_mounted;
 
-/* NULL with the message if the tables are none of a system. */
-rf_mounted *rf_mounted_create(const rf_tables *tables, rf_sizes *sizes, rf_message *why);
-void rf_mounted_destroy(rf_mounted *self);
+/* The functions `take`, `release` and `solve` of an rf_kernel_type. */
+int rf_mounted_take(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why);
+void rf_mounted_release(void *kernel);
+void rf_mounted_solve(void *kernel, double *b);
 
 /* What depends on shift and speed only: the inverse, and the response of the free rotor to the forces. */
 void rf_mounted_invert(rf_mounted *self, double shift, double speed);
-/* Inverse of I - (forces by motion) (motion by forces): the bearings close the loop. */
+/* Inverse of I - (forces by motion) (motion by forces): the bearings close the loop. After both, `solve` is ready. */
 int rf_mounted_close_loop(const rf_mounted *self, rf_message *why);
 
 /* A bearing that adds the mass M of its oil to its journal, whose acceleration is a = V x', answers f - M a. With the
@@ -50,8 +51,5 @@ void rf_mounted_accelerate(const rf_mounted *self, const double *dx);
 void rf_mounted_add_inertia(const rf_mounted *self, double sign, double *forces);
 /* Take the slopes of M a by the motion at x', and shift M by the velocity, from the slopes of the forces. */
 void rf_mounted_slope_masses(const rf_mounted *self, const double *dx, double shift);
-
-/* b becomes (shift I - A)^-1 b, after both. */
-void rf_mounted_solve(const rf_mounted *self, double *b);
 
 #endif

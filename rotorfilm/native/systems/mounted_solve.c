@@ -79,8 +79,9 @@ int rf_mounted_close_loop(const rf_mounted *self, rf_message *why)
     return RF_OK;
 }
 
-void rf_mounted_solve(const rf_mounted *self, double *b)
+void rf_mounted_solve(void *kernel, double *b)
 {
+    const rf_mounted *self = kernel;
     const size_t n = self->n, f = 2 * self->bearings;
     double *const forces = self->force, *const linear = self->moved + f; /* f of the 2f numbers of `moved` */
     if (self->masses)

@@ -22,17 +22,16 @@ static const rf_kernel_type *const KINDS[] = {
 };
 enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS };
 
-void rf_mounted_destroy(rf_mounted *self)
+void rf_mounted_release(void *kernel)
 {
+    rf_mounted *self = kernel;
     for (size_t k = 0; self->bearing && k < self->bearings; ++k) {
-        if (self->bearing[k].kernel)
-            self->bearing[k].type->destroy(self->bearing[k].kernel);
+        rf_destroy_kernel(self->bearing[k].type, self->bearing[k].kernel);
         free(self->bearing[k].tables);
     }
     free(self->bearing);
     rf_free_profile(&self->profile);
     free(self->numbers);
-    free(self);
 }
 
 /* Numbers of a table of this shape, which may be 0 x columns; NULL with the message if there is none. */
@@ -133,7 +132,7 @@ static int take_bearing(rf_mounted_bearing *self, const double *entry, const rf_
         return rf_say(why, RF_MEMORY, "no memory for the tables of a bearing");
     const rf_tables set = tables_of_set(tables, (unsigned)entry[1], self->tables);
     self->type = KINDS[(size_t)entry[0]];
-    self->kernel = self->type->create(&set, &sizes, why);
+    self->kernel = rf_create_kernel(self->type, &set, &sizes, why);
     self->parameters = sizes.parameters;
     self->inputs = sizes.inputs;
     self->heavy = self->kernel && self->type->adds_mass && sizes.outputs == 5;
@@ -157,22 +156,16 @@ static int take_bearings(rf_mounted *self, const rf_tables *tables, rf_sizes *si
     return RF_OK;
 }
 
-rf_mounted *rf_mounted_create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
+int rf_mounted_take(void *kernel, const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    rf_mounted *self = calloc(1, sizeof *self);
-    if (!self) {
-        rf_say(why, RF_MEMORY, "no memory for a system");
-        return NULL;
-    }
+    rf_mounted *self = kernel;
     sizes->parameters = 0;
     if (take_matrices(self, tables, why) != RF_OK || allocate(self, why) != RF_OK
-        || take_bearings(self, tables, sizes, why) != RF_OK) {
-        rf_mounted_destroy(self);
-        return NULL;
-    }
+        || take_bearings(self, tables, sizes, why) != RF_OK)
+        return RF_INVALID;
     sizes->parameters += (self->profile.points == 1) + 2 * self->plane_count;
     sizes->inputs = self->inputs + 2 * self->driven;
     sizes->outputs = self->sensed + 1 + 2 * self->bearings + 3 * self->masses;
     sizes->states = 2 * self->n + self->driven;
-    return self;
+    return RF_OK;
 }

@@ -23,8 +23,6 @@
    Validity: Laminar, isothermal, rigid; ambient pressure around every pad, no inertia at steps. Dimensions are fixed.
    Where nothing drives the film of a pad the force has no derivative. */
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "../kernels/kernel.h"
 #include "thrust.h"
@@ -110,15 +108,9 @@ static int take_tables(void *kernel, const rf_tables *tables, rf_sizes *sizes, r
     rf_thrust taken = {pad, (size_t)n[4], n[5], n[6], 0.0, n[7], (int32_t)n[8], 0, {0}};
     if (take_film(tables, &taken, why) != RF_OK)
         return RF_INVALID;
-    const rf_sizes mine = {PARAMETERS, RF_THRUST_INPUTS, RF_SECTOR_ROWS, taken.count * (size_t)taken.tilts, 0};
     *bearing = taken;
-    *sizes = mine;
+    *sizes = (rf_sizes){PARAMETERS, RF_THRUST_INPUTS, RF_SECTOR_ROWS, taken.count * (size_t)taken.tilts, 0};
     return RF_OK;
-}
-
-static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
-{
-    return rf_make_kernel(sizeof(model), take_tables, free, tables, sizes, why);
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)
@@ -167,8 +159,8 @@ static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer,
 }
 
 const rf_kernel_type rf_thrust_type = {
-    .create = create,
-    .destroy = free,
+    .bytes = sizeof(model),
+    .take = take_tables,
     .set_parameters = set_parameters,
     .output = output,
     .jacobian = jacobian,
