@@ -26,7 +26,7 @@ from rotorfilm import (
 )
 from rotorfilm.bearings import HalfSommerfeld, layer_modes
 from rotorfilm.bearings.damper.squeeze_films import short_squeeze_film
-from rotorfilm.bearings.damper.squeeze_laws import FullInertia, ZoneInertia, short_inertia
+from rotorfilm.bearings.damper.squeeze_laws import FilmInertia
 
 
 def chebyshev(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -89,10 +89,10 @@ def exact_orbit(eps: float, reynolds: float, **grid: int) -> np.ndarray:
 def film_orbit(eps: float, reynolds: float, *, ruptured: bool = False) -> tuple[np.ndarray, np.ndarray]:
     """Return the forces of the package's film on that orbit, with inertia and without."""
     viscous = short_squeeze_film(layer_modes(None), cavitated=ruptured)
-    inertia = ZoneInertia() if ruptured else FullInertia(short_inertia)
+    inertia = FilmInertia(zone=1.0) if ruptured else FilmInertia(closed=1.0)
     e, w = np.array([eps, 0.0]), np.array([0.0, eps])
     bare = viscous.force(e, w) / reynolds
-    return bare + inertia.mass(e, w) @ e + inertia.convection(e, w), bare
+    return bare + inertia.mass(e, w) @ e + inertia.force(e, w), bare
 
 
 def cut_off(eps: float, reynolds: float, nodes: int = 20000) -> np.ndarray:

@@ -489,9 +489,14 @@ class OilDamperKernel(ResponseKernel):
         if scales.inertial:
             self.mass_call = address_of("rf_oil_damper_mass"), addressof(self.struct)
 
-    def mass(self, x: float, y: float, vx: float, vy: float) -> tuple[Array, Array]:
-        """Return the added mass xx, xy, yy, shape (3,) [kg], and its slopes by x, y, vx, vy, (3, 4)."""
-        mass, slopes = np.empty(3), np.empty((3, 4))
-        state = (c_double * 5)(x, y, vx, vy, 0.0)
-        loops()["rf_oil_damper_mass"](self._reference, state, mass.ctypes.data, slopes.ctypes.data)
-        return mass, slopes
+    def masses(self, position: Array, velocity: Array) -> Batch:
+        """Return the added mass xx, xy, yy [kg] and its slopes by x, y, vx, vy behind it, shape (3, 5, n)."""
+        states = np.concatenate([position, velocity]).T.tolist()
+        found, statuses = np.empty((len(states), 15)), []
+        for row, state in zip(found, states, strict=True):
+            at = row.ctypes.data
+            places = _Five(*state), at, at + 3 * row.itemsize
+            statuses.append(loops()["rf_oil_damper_mass"](self._reference, *places))
+        values = np.concatenate([found[:, :3, None], found[:, 3:].reshape(-1, 3, 4)], axis=2)
+        first = int(np.argmax(statuses))
+        return Batch(np.moveaxis(values, 0, -1), statuses[first], first)

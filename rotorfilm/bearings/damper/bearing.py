@@ -42,20 +42,14 @@ from .squeeze_inertia import (
 )
 from .squeeze_laws import (
     LARGEST_TABULATED,
-    NODES,
     EndSeal,
     FilmInertia,
-    FullInertia,
     RadialTable,
     SealedShortFilm,
     ShortSqueeze,
     SqueezeCase,
     SqueezeLaw,
     SqueezeOptions,
-    ZoneInertia,
-    least_root,
-    radial_table,
-    short_inertia,
 )
 
 # The cage of a damper, and what feeds lubricant to its film.
@@ -478,13 +472,13 @@ class SqueezeFilmDamper(InertialModel):
         """Return the convective inertia force [N], shape (2, ...), which is part of `force`."""
         if not self.has_inertia:
             return np.zeros_like(position)
-        return self.inertia_scale * self.film_inertia.convection(*self._scaled(position, velocity))
+        return self.inertia_scale * self.film_inertia.force(*self._scaled(position, velocity))
 
     def convection_slopes(self, position: Array, velocity: Array) -> Array:
         """Return its derivatives by position and velocity, shape (2, 4, ...)."""
         if not self.has_inertia:
             return np.zeros((2, 4, *position.shape[1:]))
-        slopes = self.film_inertia.convection_slopes(*self._scaled(position, velocity))
+        slopes = self.film_inertia.jacobian(*self._scaled(position, velocity))
         return self.inertia_scale / self.clearance * slopes
 
     @property
@@ -681,21 +675,9 @@ def _parts(damper: SqueezeFilmDamper) -> OilParts | None:
     viscous = _compiled(film)
     if viscous is None and not isinstance(film, RadialTable):
         return None
-    inertia = damper.film_inertia if damper.has_inertia else None
-    full = isinstance(inertia, FullInertia)
-    closed = isinstance(inertia, FullInertia) and inertia.radial is short_inertia
-    tabled = viscous is None or (full and not closed)
+    inertia = damper.film_inertia if damper.has_inertia else FilmInertia()
     sealed = 0.0 if not isinstance(film, SealedShortFilm) else 0.5 if case.cavitated else 1.0
-    return OilParts(
-        zone=inertia.share if isinstance(inertia, ZoneInertia) else 0.0,
-        closed=float(closed),
-        tabled=float(full and not closed),
-        sealed=sealed,
-        radial=radial_table(case.slenderness, case.end_leak).table if tabled else None,
-        least=least_root() if tabled else 1.0,
-        nodes=NODES[0],
-        weights=NODES[1],
-    )
+    return inertia.parts(sealed, film.table if isinstance(film, RadialTable) else None)
 
 
 # The dimensionless groups of a rotor on a damper.

@@ -3,24 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from abc import abstractmethod
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import Any, ClassVar, NamedTuple, Protocol, runtime_checkable
+from functools import cached_property, lru_cache
+from typing import ClassVar, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
-from ...core.errors import InputError, require_non_negative, require_positive, warn_user
+from ...core.errors import InputError, require_non_negative, require_positive
 from ...core.inputs import arguments, quantities
 from ...core.model import Array
+from ...native.film_kernels import OilDamperKernel, OilParts, OilScales
+from ..films.law import report_law
 from .squeeze_films import (
     LARGEST,
     FiniteSqueezeFilm,
     LayerModes,
     PorousLayer,
     SqueezeFilm,
-    arc_nodes,
     short_squeeze_film,
 )
 
@@ -165,14 +166,14 @@ def sealed_short(film: SqueezeFilm, case: SqueezeCase) -> SqueezeFilm:
 
 def short_film_inertia(case: SqueezeCase) -> FilmInertia:
     """Return the inertia of a short film: that of its zone where it ruptures."""
-    return ZoneInertia() if case.cavitated else FullInertia(short_inertia)
+    return FilmInertia(zone=1.0) if case.cavitated else FilmInertia(closed=1.0)
 
 
 def finite_film_inertia(case: SqueezeCase) -> FilmInertia:
     """Return the inertia of a film of finite length; of one that ruptures that of its zone."""
     if case.cavitated:
-        return ZoneInertia(share=parabola_mean(case.slenderness))
-    return FullInertia(radial_table(case.slenderness, case.end_leak).inertia, LARGEST_TABULATED)
+        return FilmInertia(zone=parabola_mean(case.slenderness))
+    return FilmInertia(table=radial_table(case.slenderness, case.end_leak).table, reach=LARGEST_TABULATED)
 
 
 def published_conductance(layer: PorousLayer) -> float:
@@ -202,78 +203,120 @@ class _LinearSqueezeFilm:
         return np.broadcast_to(constant.reshape(2, 4, *axes), (2, 4, *eccentricity.shape[1:])).copy()
 
 
-# The inertia of the oil in a cavitated film: that of the zone which the viscous film fills.
+# Films of the C library that have seals or inertia, in the film's units (`native/films/oil_damper.h`).
 
 
 NODES = np.polynomial.legendre.leggauss(40)
-"""Of Gauss and Legendre over the zone, and their weights."""
+"""Of Gauss and Legendre over the zone of a ruptured film, and their weights."""
 
 
-@dataclass(frozen=True, eq=False)
-class ZoneInertia:
-    """Pressure of the inertia on the half circle towards which the rotor moves, as if the zone stayed so.
+class OilTerms:
+    """A force of the C library without dimensions, of a squeeze film or of its inertia."""
 
-    In truth the pressure of the inertia moves the edge of the film. On a circular orbit the rule has an error
-    of 0, 0.5, 2.6 and 8 % of the force at eccentricity ratio 0.2, and of 0, 0.7, 4.6 and 18 % at 0.5, for
-    squeeze Reynolds numbers of 0.5, 2, 5 and 10.
+    @property
+    @abstractmethod
+    def kernel(self) -> OilDamperKernel:
+        """The force of a damper of clearance 1 and unit scales."""
+
+    def force(self, eccentricity: Array, rate: Array) -> Array:
+        """Return the force on the rotor, shape (2, ...); see `SqueezeFilm.force`."""
+        return self._answer(eccentricity, rate, slopes=False).reshape(eccentricity.shape)
+
+    def jacobian(self, eccentricity: Array, rate: Array) -> Array:
+        """Return d force / d (eccentricity, rate), shape (2, 4, ...); see `SqueezeFilm.jacobian`."""
+        found = self._answer(eccentricity, rate, slopes=True)
+        return found[:, :4].reshape(2, 4, *eccentricity.shape[1:])
+
+    def _answer(self, eccentricity: Array, rate: Array, *, slopes: bool) -> Array:
+        e, w = eccentricity.reshape(2, -1), rate.reshape(2, -1)
+        batch = (self.kernel.jacobian if slopes else self.kernel.force)(e, w, np.zeros(1))
+        report_law(batch, e, w, self.kernel.film)
+        return batch.values
+
+
+def oil_parts(
+    *,
+    zone: float = 0.0,
+    closed: float = 0.0,
+    tabled: float = 0.0,
+    sealed: float = 0.0,
+    radial: Array | None = None,
+) -> OilParts:
+    """Return what a damper is made of; see `OilParts`."""
+    least = 1.0 if radial is None else least_root()
+    return OilParts(zone, closed, tabled, sealed, radial, least, *NODES)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FilmInertia(OilTerms):
+    """Inertia of the oil in a film: its added mass, and as its force that of convection.
+
+    A ruptured film has the pressure of the inertia on the half circle towards which the rotor moves, as if
+    this zone stayed so. In truth that pressure moves the edge of the film. On a circular orbit the rule has
+    an error of 0, 0.5, 2.6 and 8 % of the force at eccentricity ratio 0.2, and of 0, 0.7, 4.6 and 18 % at
+    0.5, for squeeze Reynolds numbers of 0.5, 2, 5 and 10.
 
     Parameters
     ----------
-    share : float [1]
-        Share of the short film's inertia: 1, or that of a film of finite length in small motion about the
-        center, where it is exact, since acceleration turns the half circle there. At eccentricity ratio 0.5
-        the mass along the motion is then 6 and 14 % too small at length / diameter 0.5 and 1.
+    zone : float [1]
+        Share of the short film's inertia in a ruptured zone: 1, or that of a film of finite length in small
+        motion about the center, where it is exact, since acceleration turns the half circle there. At
+        eccentricity ratio 0.5 the mass along the motion is then 6 and 14 % too small at length / diameter 0.5
+        and 1.
+    closed : float [1]
+        Share of the inertia of a short full film, which is known in closed form.
+    table : ndarray, shape (NODES, 7), or None
+        That of a full film of finite length, as of a `RadialTable`.
+    reach : float [1]
+        Eccentricity ratio to which it is meant.
+
+    Notes
+    -----
+    The inertia of a short film's mean flow z h_t/h (first order, parabolic profile) gives the pressure
+
+        integral of p dz = -(density L^3/12) [(6/5) h_tt/h - (102/35) h_t^2/h^2],
+
+    M = (1/10) integral of m m/h, q = (17/70) integral of (w.m)^2 m/h^2 over the circumference, of a ruptured
+    film over its zone. Seals change the viscous pressure only: what leaves a short film is its volume.
     """
 
-    share: float = 1.0
+    zone: float = 0.0
+    closed: float = 0.0
+    table: Array | None = None
+    reach: float = 1.0
 
-    reach: ClassVar[float] = 1.0
-    """Up to the wall."""
+    def parts(self, sealed: float = 0.0, radial: Array | None = None) -> OilParts:
+        """Return what a damper with this inertia is made of, with the table of its viscous film."""
+        tabled, table = float(self.table is not None), radial if self.table is None else self.table
+        return oil_parts(zone=self.zone, closed=self.closed, tabled=tabled, sealed=sealed, radial=table)
+
+    @cached_property
+    def kernel(self) -> OilDamperKernel:
+        """The inertia alone, in units of density radius length^3."""
+        return OilDamperKernel(self.parts(), None, OilScales(1.0, 0.0, 1.0, 0.0))
 
     def mass(self, eccentricity: Array, rate: Array) -> Array:
-        """Return the added mass, shape (2, 2, ...); see `FullInertia.mass`."""
-        u, h, weight, _ = _zone(eccentricity, rate)
-        found = np.einsum("imb,jmb,mb->ijb", u, u, 0.1 * self.share * weight / h)
-        return found.reshape(2, 2, *eccentricity.shape[1:])
+        """Return the added mass, shape (2, 2, ...), symmetric.
+
+        Parameters
+        ----------
+        eccentricity : ndarray, shape (2, ...) [1]
+            Position / clearance.
+        rate : ndarray, shape (2, ...) [1/s]
+            Velocity / clearance; of a ruptured film only its direction matters, of a full one nothing.
+        """
+        return self._masses(eccentricity, rate)[:, :, 0]
 
     def mass_slopes(self, eccentricity: Array, rate: Array) -> Array:
-        """Return its derivatives, shape (2, 2, 4, ...); see `FullInertia.mass_slopes`."""
-        u, h, weight, _ = _zone(eccentricity, rate)
+        """Return d mass / d (eccentricity, rate), shape (2, 2, 4, ...)."""
+        return self._masses(eccentricity, rate)[:, :, 1:]
+
+    def _masses(self, eccentricity: Array, rate: Array) -> Array:
+        """Return the mass and its derivatives side by side, shape (2, 2, 5, ...)."""
         e, w = eccentricity.reshape(2, -1), rate.reshape(2, -1)
-        by_e = np.einsum("imb,jmb,kmb,mb->ijkb", u, u, u, 0.1 * self.share * weight / h**2)
-        size = np.hypot(*w)
-        turn = np.stack([-w[1], w[0]]) / np.where(size > 0.0, size, 1.0)
-        across = np.sum(e * turn, axis=0)
-        ends = 1.0 / (1.0 - across) - 1.0 / (1.0 + across)
-        ends *= 0.1 * self.share / np.where(size > 0.0, size, np.inf)
-        by_w = ends * turn[:, None, None] * turn[:, None] * turn
-        return np.concatenate([by_e, by_w], axis=2).reshape(2, 2, 4, *eccentricity.shape[1:])
-
-    def convection(self, eccentricity: Array, rate: Array) -> Array:
-        """Return the force of convection, shape (2, ...); see `FullInertia.convection`."""
-        u, h, weight, toward = _zone(eccentricity, rate)
-        found = -np.einsum("imb,mb->ib", u, CONVECTION * self.share * weight * (toward / h) ** 2)
-        return found.reshape(eccentricity.shape)
-
-    def convection_slopes(self, eccentricity: Array, rate: Array) -> Array:
-        """Return its derivatives, shape (2, 4, ...); see `FullInertia.convection_slopes`."""
-        u, h, weight, toward = _zone(eccentricity, rate)
-        push = -2.0 * CONVECTION * self.share * weight * toward / h**2
-        by_w = np.einsum("imb,jmb,mb->ijb", u, u, push)
-        by_e = np.einsum("imb,jmb,mb->ijb", u, u, push * toward / h)
-        return np.concatenate([by_e, by_w], axis=1).reshape(2, 4, *eccentricity.shape[1:])
-
-
-def _zone(eccentricity: Array, rate: Array) -> tuple[Array, Array, Array, Array]:
-    """Return nodes where w.u > 0: directions u (2, M, B), film thickness, weights and w.u (M, B)."""
-    e, w = eccentricity.reshape(2, -1), rate.reshape(2, -1)
-    minimum = np.arctan2(e[1], e[0])
-    ahead = np.arctan2(w[1], w[0]) - minimum
-    ends = ahead - 0.5 * np.pi, ahead + 0.5 * np.pi
-    c, s, h, weight = arc_nodes(np.hypot(*e), *ends, 0.0, *NODES)
-    cos, sin = np.cos(minimum), np.sin(minimum)
-    u = np.stack([cos * c - sin * s, sin * c + cos * s])
-    return u, h, weight, np.einsum("ib,imb->mb", w, u)
+        batch = self.kernel.masses(e, w)
+        report_law(batch, e, w, self.kernel.film)
+        return batch.values[[[0, 1], [1, 2]]].reshape(2, 2, 5, *eccentricity.shape[1:])
 
 
 # Functions of the radius for full films of finite length, between ends of any leakage, in a short table.
@@ -290,7 +333,7 @@ POWERS = np.array([1.0, 1.0, 1.0, 1.0, 3.0, 3.0, 5.0])
 
 
 @dataclass(frozen=True, eq=False)
-class RadialTable:
+class RadialTable(OilTerms):
     """Full film of finite length between ends of any leakage: F = -c w - d (e.w) e, and its inertia.
 
     Seven functions of the squared eccentricity ratio, as polynomials in s = sqrt(1 - E).
@@ -303,42 +346,10 @@ class RadialTable:
 
     table: Array
 
-    def inertia(self, E: Array) -> tuple[Array, Array]:
-        """Return m, n, a, b, c of the inertia, shape (5, ...), and their slopes; see `FullInertia`."""
-        values, slopes = self._at(E)
-        return values[:5], slopes[:5]
-
-    def force(self, eccentricity: Array, rate: Array) -> Array:
-        """Return the force on the rotor, shape (2, ...); see `SqueezeFilm.force`."""
-        c, d = self._at(_squared(eccentricity))[0][5:]
-        return -c * rate - d * np.sum(eccentricity * rate, axis=0) * eccentricity
-
-    def jacobian(self, eccentricity: Array, rate: Array) -> Array:
-        """Return d force / d (eccentricity, rate), shape (2, 4, ...); see `SqueezeFilm.jacobian`."""
-        e, w, unit = eccentricity, rate, _unit(eccentricity)
-        (c, d), (c_E, d_E) = (both[5:] for both in self._at(_squared(e)))
-        ew = np.sum(e * w, axis=0)
-        by_rate = -c * unit - d * e[:, None] * e
-        grown = c_E * w + d_E * ew * e
-        by_position = -2.0 * grown[:, None] * e - d * (ew * unit + e[:, None] * w)
-        return np.concatenate([by_position, by_rate], axis=1)
-
-    def _at(self, E: Array) -> tuple[Array, Array]:
-        s = np.sqrt(1.0 - E)
-        least = least_root()
-        if np.any(s < least * (1.0 - 1e-9)):
-            warn_user(
-                f"eccentricity ratio must not exceed {LARGEST_TABULATED} for a film of finite length with "
-                f"seals or inertia, got {math.sqrt(float(np.max(E))):.6g}: it goes on as a power"
-            )
-        x = np.clip((2.0 * s - 1.0 - least) / (1.0 - least), -1.0, 1.0)
-        powers = POWERS.reshape(-1, *(1,) * E.ndim)
-        scale = s**-powers
-        chebyshev = np.polynomial.chebyshev
-        value = chebyshev.chebval(x, self.table)
-        slope = chebyshev.chebval(x, chebyshev.chebder(self.table)) * np.where(s < least, 0.0, 2.0)
-        by_s = slope / (1.0 - least) - powers * value / s
-        return value * scale, by_s * scale * (-0.5 / s)
+    @cached_property
+    def kernel(self) -> OilDamperKernel:
+        """The viscous film alone."""
+        return OilDamperKernel(oil_parts(radial=self.table), None, OilScales(1.0, 1.0, 0.0, 0.0))
 
 
 @lru_cache(maxsize=32)
@@ -379,104 +390,6 @@ def _functions(eps: float, slenderness: float, end_leak: float) -> tuple[float, 
 
 CONVECTION = 17.0 / 70.0
 """Force of convection in a short film per integral of (w.m)^2 m/h^2: (102/35)/12 of its pressure."""
-
-
-@dataclass(frozen=True, eq=False)
-class FullInertia:
-    """Inertia of a film all round in its units, the same in every direction: five functions of the radius.
-
-    Mass m I + n e e and convection a |w|^2 e + b (e.w) w + c (e.w)^2 e.
-
-    Parameters
-    ----------
-    radial : callable
-        Returns m, n, a, b, c, each (...), and their slopes at squared eccentricity ratios (...).
-    reach : float [1]
-        Eccentricity ratio to which they are meant.
-    """
-
-    radial: Callable[[Array], tuple[Any, Any]]
-    reach: float = 1.0
-
-    def mass(self, eccentricity: Array, rate: Array) -> Array:
-        """Return the added mass, shape (2, 2, ...), symmetric.
-
-        Parameters
-        ----------
-        eccentricity : ndarray, shape (2, ...) [1]
-            Position / clearance.
-        rate : ndarray, shape (2, ...) [1/s]
-            Velocity / clearance; of a ruptured film only its direction matters, of a full one nothing.
-        """
-        e, (m, n, *_) = eccentricity, self.radial(_squared(eccentricity))[0]
-        return m * _unit(e) + n * e[:, None] * e
-
-    def mass_slopes(self, eccentricity: Array, rate: Array) -> Array:
-        """Return d mass / d (eccentricity, rate), shape (2, 2, 4, ...)."""
-        e, unit = eccentricity, _unit(eccentricity)
-        (_, n, *_), (m_E, n_E, *_) = self.radial(_squared(e))
-        by_e = 2.0 * (m_E * unit + n_E * e[:, None] * e)[:, :, None] * e
-        by_e += n * (unit[:, None] * e[:, None] + e[:, None, None] * unit)
-        return np.concatenate([by_e, np.zeros_like(by_e)], axis=2)
-
-    def convection(self, eccentricity: Array, rate: Array) -> Array:
-        """Return the force of convection on the rotor, shape (2, ...)."""
-        e, w, (*_, a, b, c) = eccentricity, rate, self.radial(_squared(eccentricity))[0]
-        ew = np.sum(e * w, axis=0)
-        return (a * _squared(w) + c * ew**2) * e + b * ew * w
-
-    def convection_slopes(self, eccentricity: Array, rate: Array) -> Array:
-        """Return d convection / d (eccentricity, rate), shape (2, 4, ...)."""
-        e, w, unit = eccentricity, rate, _unit(eccentricity)
-        (*_, a, b, c), (*_, a_E, b_E, c_E) = self.radial(_squared(e))
-        ew, ww = np.sum(e * w, axis=0), _squared(w)
-        grown = (a_E * ww + c_E * ew**2) * e + b_E * ew * w
-        by_e = 2.0 * grown[:, None] * e + (a * ww + c * ew**2) * unit
-        by_e += (2.0 * c * ew * e + b * w)[:, None] * w
-        by_w = 2.0 * a * e[:, None] * w + (2.0 * c * ew * e + b * w)[:, None] * e
-        return np.concatenate([by_e, by_w + b * ew * unit], axis=1)
-
-
-FilmInertia = FullInertia | ZoneInertia
-"""The inertia of a film in its units."""
-
-
-def short_inertia(E: Array) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
-    """Return m, n, a, b, c of a short film, open or sealed, and their slopes; exact for 0 <= E < 1.
-
-    Parameters
-    ----------
-    E : ndarray, shape (...) [1]
-        Squared eccentricity ratio.
-
-    Notes
-    -----
-    The inertia of the film's mean flow z h_t/h (first order, parabolic profile) gives the pressure
-
-        integral of p dz = -(density L^3/12) [(6/5) h_tt/h - (102/35) h_t^2/h^2],
-
-    M = (1/10) integral of m m/h, q = (17/70) integral of (w.m)^2 m/h^2 over the circumference, here in closed
-    form with s = sqrt(1 - E). Seals change the viscous pressure only: what leaves a short film is its volume.
-    """
-    s = np.sqrt(1.0 - E)
-    near, tenth, share = 1.0 + s, 0.1 * np.pi, 2.0 * np.pi * CONVECTION
-    n = 2.0 * tenth / (s * near**2)
-    t = -share / (s * near**2)
-    c = -share * (3.0 * s + 1.0) / (s * near) ** 3
-    by_s = -0.5 / s  # ds/dE
-    n_log = -(1.0 / s + 2.0 / near) * by_s
-    c_log = (3.0 / (3.0 * s + 1.0) - 3.0 / s - 3.0 / near) * by_s
-    values = (2.0 * tenth / near, n, t, 2.0 * t, c)
-    slopes = (-2.0 * tenth / near**2 * by_s, n * n_log, t * n_log, 2.0 * t * n_log, c * c_log)
-    return values, slopes
-
-
-def _squared(vector: Array) -> Array:
-    return np.asarray(np.sum(vector * vector, axis=0))
-
-
-def _unit(vector: Array) -> Array:
-    return np.eye(2).reshape(2, 2, *(1,) * (vector.ndim - 1))
 
 
 # Full squeeze film of finite length between ends of any leakage: pressure, added mass and convection.

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 
 import rotorfilm as rf
 from rotorfilm import FilmContactError, InputError, ValidityWarning
-from rotorfilm.bearings.damper.squeeze_laws import FullInertia, ZoneInertia, short_inertia, squeeze_motions
+from rotorfilm.bearings.damper.squeeze_laws import FilmInertia, squeeze_motions
 
 ROOT = Path(__file__).parents[3]
 SIZE = {"radius": 63.5e-3, "length": 25.4e-3, "clearance": 0.127e-3, "viscosity": 2.5e-3}
@@ -25,32 +25,32 @@ def circle(count=4000):
 
 def orbit_mass(eps):
     """Return F_r/(e w^2) of the inertia on a circular orbit, per pi/10."""
-    film, e, w = FullInertia(short_inertia), np.array([eps, 0.0]), np.array([0.0, eps])
-    return float((film.mass(e, w) @ e + film.convection(e, w))[0] / eps / (0.1 * np.pi))
+    film, e, w = FilmInertia(closed=1.0), np.array([eps, 0.0]), np.array([0.0, eps])
+    return float((film.mass(e, w) @ e + film.force(e, w))[0] / eps / (0.1 * np.pi))
 
 
 def test_short_film_is_its_integrals():
     # San Andres' and Vance's form: M = (1/10) of m m/h, convection (17/70) of (w.m)^2 m/h^2.
     m, step = circle()
-    film = FullInertia(short_inertia)
+    film = FilmInertia(closed=1.0)
     rng = np.random.default_rng(4)
     for _ in range(5):
         e, w = rng.uniform(-0.6, 0.6, 2), rng.normal(size=2)
         h = 1.0 + e @ m
         assert_allclose(film.mass(e, w), 0.1 * step * np.einsum("ik,jk,k->ij", m, m, 1.0 / h), atol=1e-13)
         push = 17.0 / 70.0 * step * m @ ((w @ m) ** 2 / h**2)
-        assert_allclose(film.convection(e, w), push, atol=1e-12)
+        assert_allclose(film.force(e, w), push, atol=1e-12)
 
 
 def test_ruptured_film_is_the_integral_over_its_half_circle():
     m, step = circle(200_000)
     e, w = np.array([0.3, -0.5]), np.array([-0.4, 1.1])
     h, inside = 1.0 + e @ m, (w @ m) < 0.0
-    film = ZoneInertia()
+    film = FilmInertia(zone=1.0)
     mass = 0.1 * step * np.einsum("ik,jk,k->ij", m, m, inside / h)
     assert_allclose(film.mass(e, w), mass, rtol=2e-5)
     push = 17.0 / 70.0 * step * m @ (inside * (w @ m) ** 2 / h**2)
-    assert_allclose(film.convection(e, w), push, rtol=2e-5)
+    assert_allclose(film.force(e, w), push, rtol=2e-5)
 
 
 @pytest.mark.literature
@@ -60,7 +60,7 @@ def test_convection_turns_the_added_mass_into_a_push_inward():
         [orbit_mass(eps) for eps in (0.2, 0.5, 0.7, 0.9)], [0.980, 0.835, 0.500, -1.18], atol=5e-3
     )
     assert abs(orbit_mass(0.8087)) < 1e-3
-    film = FullInertia(short_inertia)
+    film = FilmInertia(closed=1.0)
     assert film.mass(np.array([0.9, 0.0]), np.zeros(2))[0, 0] > 0.1 * np.pi
 
 
@@ -86,13 +86,13 @@ def test_ruptured_inertia_against_the_cut_off_of_both_pressures():
 
 def test_finite_length_becomes_short():
     errors = []
-    film, e = FullInertia(short_inertia), np.array([0.6, 0.0])
+    film, e = FilmInertia(closed=1.0), np.array([0.6, 0.0])
     short = np.diag(film.mass(e, e))
     for slenderness in (0.08, 0.04):
         errors.append(np.abs(squeeze_motions(0.6, slenderness, np.inf).mass - short).max())
     assert 3.6 < errors[0] / errors[1] < 4.4
     found = squeeze_motions(0.6, 0.01, np.inf).convection
-    pushes = [film.convection(e, np.array(w))[k] for w, k in (((1, 0), 0), ((0, 1), 0), ((1, 1), 1))]
+    pushes = [film.force(e, np.array(w))[k] for w, k in (((1, 0), 0), ((0, 1), 0), ((1, 1), 1))]
     assert_allclose(found, pushes, rtol=1e-3)
 
 
