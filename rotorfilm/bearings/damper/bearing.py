@@ -261,7 +261,7 @@ class SqueezeFilmDamper(InertialModel):
         reach = self._options.largest_eccentricity_ratio
         if isinstance(self.bound_film, RadialTable):
             reach = LARGEST_TABULATED
-        return min(reach, self.film_inertia.reach) if self.has_inertia else reach
+        return min(reach, self.film_inertia.reach)
 
     @property
     def is_built(self) -> bool:
@@ -386,7 +386,7 @@ class SqueezeFilmDamper(InertialModel):
     @cached_property
     def film_inertia(self) -> FilmInertia:
         """The inertia of the film in this damper's dimensions."""
-        return self._options.inertia(self.squeeze_case)
+        return self._options.inertia(self.squeeze_case) if self.has_inertia else FilmInertia()
 
     def mass(self, position: ArrayLike, velocity: ArrayLike | None = None, speed: ArrayLike = 0.0) -> Array:
         """Return the added mass of the oil [kg], shape (2, 2, ...); 0 without density.
@@ -412,16 +412,12 @@ class SqueezeFilmDamper(InertialModel):
             raise InputError("velocity must be given for the mass of a ruptured film, got None")
         q, v, _ = broadcast_state(position, np.zeros(2) if velocity is None else velocity, speed)
         require_inside(q, self.clearance)
-        if not self.has_inertia:
-            return np.zeros((2, *q.shape))
         return self.inertia_scale / self.clearance * self.film_inertia.mass(*self._scaled(q, v))
 
     def mass_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
         """Return d mass / d (x, y, vx, vy, speed), shape (2, 2, 5, ...); see `core.port.Reaction`."""
         q, v, _ = broadcast_state(position, velocity, speed)
         require_inside(q, self.clearance)
-        if not self.has_inertia:
-            return np.zeros((2, 2, 5, *q.shape[1:]))
         slopes = self.film_inertia.mass_slopes(*self._scaled(q, v))
         by_motion = self.inertia_scale / self.clearance**2 * slopes
         return np.concatenate([by_motion, np.zeros_like(by_motion[:, :, :1])], axis=2)
@@ -675,9 +671,8 @@ def _parts(damper: SqueezeFilmDamper) -> OilParts | None:
     viscous = _compiled(film)
     if viscous is None and not isinstance(film, RadialTable):
         return None
-    inertia = damper.film_inertia if damper.has_inertia else FilmInertia()
     sealed = 0.0 if not isinstance(film, SealedShortFilm) else 0.5 if case.cavitated else 1.0
-    return inertia.parts(sealed, film.table if isinstance(film, RadialTable) else None)
+    return damper.film_inertia.parts(sealed, film.table if isinstance(film, RadialTable) else None)
 
 
 # The dimensionless groups of a rotor on a damper.

@@ -437,11 +437,7 @@ class KernelFilm(FilmOptions):
         FilmContactError
             If an eccentricity ratio is not below 1.
         """
-        e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
-        kernel = self._kernel(slenderness)
-        batch = kernel.force(e, w)
-        report_law(batch, e, w, kernel)
-        return batch.values.reshape(eccentricity.shape)
+        return self._answer(eccentricity, source, slenderness, slopes=False).reshape(eccentricity.shape)
 
     def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
         """Return d force / d (eccentricity, source), shape (2, 4, ...); see `FilmLaw.jacobian`.
@@ -453,11 +449,14 @@ class KernelFilm(FilmOptions):
         UndefinedDerivativeError
             Where the source vanishes, in a plain bearing off the center only.
         """
-        e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
-        kernel = self._kernel(slenderness)
-        batch = kernel.jacobian(e, w)
-        report_law(batch, e, w, kernel)
-        return batch.values.reshape(2, 4, *eccentricity.shape[1:])
+        found = self._answer(eccentricity, source, slenderness, slopes=True)
+        return found.reshape(2, 4, *eccentricity.shape[1:])
+
+    def _answer(self, e: Array, w: Array, slenderness: float, *, slopes: bool) -> Array:
+        kernel, state = self._kernel(slenderness), (e.reshape(2, -1), w.reshape(2, -1))
+        batch = (kernel.jacobian if slopes else kernel.force)(*state)
+        report_law(batch, *state, kernel)
+        return batch.values
 
     def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundKernel:
         """Return this film in one bearing, in SI units; see `FilmOptions`."""
@@ -517,10 +516,7 @@ class BoundKernel:
             x, y = position.tolist()
             vx, vy = velocity.tolist()
             return np.array(self.call(x, y, vx, vy, float(speed)))
-        q, v, omega = position.reshape(2, -1), velocity.reshape(2, -1), speed.ravel()
-        batch = self.kernel.force(q, v, omega)
-        self._report_batch(batch, q, v, omega)
-        return batch.values.reshape(position.shape)
+        return self._answer(self.kernel.force, position, velocity, speed).reshape(position.shape)
 
     def jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return d force / d (x, y, vx, vy, speed), shape (2, 5, ...)."""
@@ -528,16 +524,19 @@ class BoundKernel:
             x, y = position.tolist()
             vx, vy = velocity.tolist()
             return np.array(self.tangent(x, y, vx, vy, float(speed))[2]).reshape(2, 5)
-        q, v, omega = position.reshape(2, -1), velocity.reshape(2, -1), speed.ravel()
-        batch = self.kernel.jacobian(q, v, omega)
-        self._report_batch(batch, q, v, omega)
-        return batch.values.reshape(2, 5, *position.shape[1:])
+        found = self._answer(self.kernel.jacobian, position, velocity, speed)
+        return found.reshape(2, 5, *position.shape[1:])
 
-    def _report_batch(self, batch: Batch, q: Array, v: Array, omega: Array) -> None:
+    def _answer(
+        self, ask: Callable[[Array, Array, Array], Batch], position: Array, velocity: Array, speed: Array
+    ) -> Array:
+        q, v, omega = position.reshape(2, -1), velocity.reshape(2, -1), speed.ravel()
+        batch = ask(q, v, omega)
         if batch.status:
             at = np.argmax(np.hypot(*q)) if batch.status == Status.AT_WALL else batch.first
             (x, y), (vx, vy) = q[:, at].tolist(), v[:, at].tolist()
             self.report(batch.status, x, y, vx, vy, float(np.broadcast_to(omega, q.shape[1:])[at]))
+        return batch.values
 
     def report(self, status: int, x: float, y: float, vx: float, vy: float, speed: float) -> None:
         """Raise, or warn, about a state that has this status."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from abc import abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from functools import partial
@@ -189,27 +190,25 @@ def quintic_coefficients(values: Array, axis: int = 0) -> Array:
         to each end are no knots (the fifth derivative is continuous there), which keeps the sixth order
         up to the ends.
     """
-    nodes = np.moveaxis(values, axis, 0)
-    right = np.concatenate([nodes, np.zeros((4, *nodes.shape[1:]))])
-    matrix = _collocation(len(nodes) - 1)
-    solved = np.linalg.solve(matrix, right.reshape(len(right), -1))
-    return np.moveaxis(solved.reshape(right.shape), 0, axis)
+    return _interpolating(_collocation(values.shape[axis] - 1), values, axis)
 
 
 def periodic_quintic_coefficients(values: Array, axis: int = 0) -> Array:
     """Return the coefficients that interpolate `values` on a uniform turn, each centered on its node."""
-    count = values.shape[axis]
-    turn = 2.0 * np.pi * np.arange(count // 2 + 1) / count
-    at_node = (66.0 + 52.0 * np.cos(turn) + 2.0 * np.cos(2.0 * turn)) / 120.0
-    spectrum = np.moveaxis(np.fft.rfft(values, axis=axis), axis, -1) / at_node
-    return np.fft.irfft(np.moveaxis(spectrum, -1, axis), count, axis)
+    return _periodic(values, axis, lambda cos: (66.0 + 52.0 * cos + 2.0 * (2.0 * cos * cos - 1.0)) / 120.0)
 
 
 def periodic_cubic_coefficients(values: Array, axis: int = 0) -> Array:
     """Return the same of a cubic spline."""
-    turn = 2.0 * np.pi * np.arange(values.shape[axis] // 2 + 1) / values.shape[axis]
-    spectrum = np.moveaxis(np.fft.rfft(values, axis=axis), axis, -1) / ((2.0 + np.cos(turn)) / 3.0)
-    return np.fft.irfft(np.moveaxis(spectrum, -1, axis), values.shape[axis], axis)
+    return _periodic(values, axis, lambda cos: (2.0 + cos) / 3.0)
+
+
+def _periodic(values: Array, axis: int, at_node: Callable[[Array], Array]) -> Array:
+    """Return the coefficients of a spline that is `at_node` of the cosine of the turn of each harmonic."""
+    count = values.shape[axis]
+    cos = np.cos(2.0 * np.pi * np.arange(count // 2 + 1) / count)
+    spectrum = np.moveaxis(np.fft.rfft(values, axis=axis), axis, -1) / at_node(cos)
+    return np.fft.irfft(np.moveaxis(spectrum, -1, axis), count, axis)
 
 
 def periodic_quintic(coefficients: Array, turns: Array) -> Array:
@@ -232,13 +231,18 @@ def spline_slopes(inside: Array) -> Array:
 
 def cubic_coefficients(values: Array, axis: int = 0) -> Array:
     """Return the `cells + 3` coefficients of the cubic spline through values, as `quintic_coefficients`."""
-    nodes = np.moveaxis(values, axis, 0)
-    cells = len(nodes) - 1
+    cells = values.shape[axis] - 1
     matrix = np.zeros((cells + 3, cells + 3))
     for node in range(cells + 1):
         matrix[node, node : node + 3] = 1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0
     matrix[cells + 1, :5] = matrix[cells + 2, -5:] = 1.0, -4.0, 6.0, -4.0, 1.0
-    right = np.concatenate([nodes, np.zeros((2, *nodes.shape[1:]))])
+    return _interpolating(matrix, values, axis)
+
+
+def _interpolating(matrix: Array, values: Array, axis: int) -> Array:
+    """Return the coefficients of a spline by its values at nodes, and by conditions at the ends."""
+    nodes = np.moveaxis(values, axis, 0)
+    right = np.concatenate([nodes, np.zeros((len(matrix) - len(nodes), *nodes.shape[1:]))])
     solved = np.linalg.solve(matrix, right.reshape(len(right), -1))
     return np.moveaxis(solved.reshape(right.shape), 0, axis)
 
@@ -406,14 +410,14 @@ class MapPlan(Generic[S]):
     slenderness: float
     finished: Callable[..., S]
 
+    @abstractmethod
     def parts(self) -> tuple[MapPart, ...]:
         """Return the parts of the map, whose pieces run side by side."""
-        raise NotImplementedError
 
     @property
     def work(self) -> float:
-        """Nodes of the map, times cells of the film, that take as long as all of it."""
-        raise NotImplementedError
+        """Nodes of the map, times cells of the film, that take as long as all; infinite where not known."""
+        return math.inf
 
     @property
     def label(self) -> str:

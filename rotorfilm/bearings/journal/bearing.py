@@ -34,13 +34,7 @@ from ..films.law import BoundKernel, BoundLaw, FilmLaw, FilmOptions, kinematics,
 from ..films.mobility import Mobility, with_mobility
 from ..films.turbulence import Turbulence, require_turbulence
 from ..oil import Cooling, Oil
-from ..oil.heated_bearing import (
-    FilmHeat,
-    WarmBearing,
-    balance_temperature,
-    fed_temperature,
-    require_lubricant,
-)
+from ..oil.heated_bearing import WarmBearing, require_lubricant
 from ..oil.oil import viscosity_table
 from ..reaction import FilmReaction, StaticReaction, broadcast_state, require_no_overflow, require_size
 from .map_film import MapFilm
@@ -299,16 +293,14 @@ class JournalBearing(FilmReaction, WarmBearing):
 
         Parameters and errors are those of `film_heat`.
         """
-        oil, cooling = self.cooled
         if self.in_balance is not None:
             return float(self.in_balance.temperature(position, velocity, speed))
+        return super().balanced_temperature(position, velocity, speed)
 
-        def heat(temperature: float) -> FilmHeat:
-            return self.at_temperature(temperature).film_heat(position, velocity, speed)
-
-        if self.supply_pressure == 0.0 and not is_sped(self.fitted_film):
-            return balance_temperature(heat(cooling.coldest), oil, cooling)
-        return fed_temperature(heat, oil, cooling)
+    @property
+    def reshapes(self) -> bool:
+        """Whether the shape of the film depends on its viscosity; see `WarmBearing`."""
+        return self.supply_pressure > 0.0 or is_sped(self.fitted_film)
 
 
 def fitted_bearing(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:

@@ -40,7 +40,7 @@ from ..films.mass_conserving_steps import ConservedAtRest, FilmInMotion, MassCon
 from ..films.mobility import Mobility, require_mobility, require_no_mobility
 from ..formulas import extrapolated_value
 from ..oil import Cooling, Oil
-from ..oil.heated_bearing import FilmHeat, balance_temperature, fed_temperature, film_heat
+from ..oil.heated_bearing import FilmHeat, film_heat, film_temperature
 from ..reaction import NOMINAL_SPEED
 from .bearing import StaticFilm, fitted_bearing
 from .moment_carrying_journal import TiltedJournal, kind_of
@@ -403,9 +403,8 @@ class JFOFilm(MassConserving):
             return found if self.supply_flow is None else found._replace(flow=found.side_flow)
 
         is_fed = self.supply_flow is not None or supply_pressure(self.bearing) or self.cavitation_pressure
-        if not (is_fed or self.bearing.turbulence or self.mobility):
-            return balance_temperature(heat(cooling.coldest), oil, cooling)
-        return fed_temperature(heat, oil, cooling)
+        reshapes = bool(is_fed or self.bearing.turbulence or self.mobility)
+        return film_temperature(heat, oil, cooling, reshapes=reshapes)
 
     def _steady(self, position: ArrayLike, speed: float) -> tuple[Array, ConservedState]:
         q, omega = require_pair("position", position), require_number("speed", speed)

@@ -376,19 +376,22 @@ class WarmBearing(LaminarFilm):
         """Return the bearing in balance at every state; None if nothing compiles it."""
         return None
 
+    @property
+    def reshapes(self) -> bool:
+        """Whether the shape of the film depends on its viscosity, so that each temperature has its own."""
+        return self.turbulence is not None
+
     def balanced_temperature(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> float:
         """Return the temperature at which the heat of the film balances at one state [K].
 
         Parameters and errors are those of `film_heat`.
         """
-        oil, cooling = self.cooled
 
         def heat(temperature: float) -> FilmHeat:
-            return self.at_temperature(temperature).film_heat(position, velocity, speed)
+            bearing = self.fresh if temperature == self.coldest() else self.at_temperature(temperature)
+            return bearing.film_heat(position, velocity, speed)
 
-        if self.turbulence is not None:
-            return fed_temperature(heat, oil, cooling)
-        return balance_temperature(self.fresh.film_heat(position, velocity, speed), oil, cooling)
+        return film_temperature(heat, *self.cooled, reshapes=self.reshapes)
 
     def in_time(self, start_temperature: float | None = None) -> HeatedBearing:
         """Return the bearing whose film warms and cools over time.
@@ -556,10 +559,10 @@ def balance_temperature(heat: FilmHeat, oil: Oil, cooling: Cooling) -> float:
     )
 
 
-def fed_temperature(heat: Callable[[float], FilmHeat], oil: Oil, cooling: Cooling) -> float:
-    """Return the temperature at which the heat of a film under supply pressure balances [K].
-
-    Its flow and its shape depend on its viscosity, so that it is solved anew at each temperature.
+def film_temperature(
+    heat: Callable[[float], FilmHeat], oil: Oil, cooling: Cooling, *, reshapes: bool
+) -> float:
+    """Return the temperature at which the heat of a film balances [K].
 
     Parameters
     ----------
@@ -567,7 +570,12 @@ def fed_temperature(heat: Callable[[float], FilmHeat], oil: Oil, cooling: Coolin
         Takes a temperature [K] and returns the heat of the film at it.
     oil : Oil
     cooling : Cooling
+    reshapes : bool
+        Whether flow and shape of the film depend on its viscosity, as under supply pressure, so that it is
+        solved anew at each temperature.
     """
+    if not reshapes:
+        return balance_temperature(heat(cooling.coldest), oil, cooling)
     from scipy.optimize import brentq
 
     def surplus(temperature: float) -> float:

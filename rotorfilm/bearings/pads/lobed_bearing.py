@@ -264,16 +264,6 @@ class LobedBearing(FilmReaction, PadBearing):
         film = fitted_pad_film(self.film, self.preloads, self.extents, self.slenderness)
         object.__setattr__(self, "film", film)
 
-    @property
-    def preloads(self) -> tuple[float, ...]:
-        """Preload of each lobe [1]."""
-        return tuple(lobe.preload for lobe in self.lobes)
-
-    @property
-    def extents(self) -> tuple[float, ...]:
-        """Angle that each lobe covers [rad]."""
-        return tuple(lobe.extent for lobe in self.lobes)
-
     def on_cells(self, around: int, along: int) -> LobedBearing:
         """Return this bearing on a grid of about so many cells around all lobes and along half the length."""
         return replace(self, film=PadGridFilm(cells=cells_on_each(around, along, len(self.lobes))))

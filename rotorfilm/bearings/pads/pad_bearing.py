@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -145,19 +146,19 @@ class PadBearing(WarmBearing):
             )
 
     @property
-    def preloads(self) -> Sequence[float]:
-        """Preload of each pad [1], or the one that all have."""
-        raise NotImplementedError
-
-    @property
-    def extents(self) -> Sequence[float]:
-        """Angle that each pad covers [rad], or the one that all cover."""
-        raise NotImplementedError
-
-    @property
+    @abstractmethod
     def arcs(self) -> Sequence[OwnCenter]:
         """The pads as arcs, tilting ones without tilt."""
-        raise NotImplementedError
+
+    @property
+    def preloads(self) -> tuple[float, ...]:
+        """Preload of each pad [1], or the one that all have."""
+        return tuple(arc.preload for arc in self.arcs)
+
+    @property
+    def extents(self) -> tuple[float, ...]:
+        """Angle that each pad covers [rad], or the one that all cover."""
+        return tuple(arc.extent for arc in self.arcs)
 
     @property
     def recesses(self) -> tuple[SunkArc, ...]:

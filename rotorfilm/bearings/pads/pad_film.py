@@ -116,11 +116,7 @@ class PadMapFilm:
         InputError
             If an argument breaks its rule.
         """
-        given = self._given(extent, slenderness)
-        if given is None:
-            return self._plan(extent, slenderness).kept(report)
-        require_same_mobility(given.mobility, law_of(self.mobility))
-        return given
+        return self._given(extent, slenderness) or self._plan(extent, slenderness).kept(report)
 
     def at_scale(self, reynolds_scale: float) -> PadMapFilm:
         """Return this film in a bearing of this radius times clearance over viscosity [m3/kg s]."""
@@ -141,15 +137,15 @@ class PadMapFilm:
 
     def require_shape(self, extent: float, slenderness: float) -> None:
         """Raise InputError where there can be no map of pads of an extent [rad] and length/diameter."""
-        if self._given(extent, slenderness) is None:
+        if self._given(extent, slenderness, in_bearing=self.reynolds_cells > 0) is None:
             require_mappable(extent, slenderness)
 
-    def _given(self, extent: float, slenderness: float) -> PadMapTable | None:
+    def _given(self, extent: float, slenderness: float, *, in_bearing: bool = False) -> PadMapTable | None:
+        """Return the given map of a pad; one without a mobility may have that of the bearing it is in."""
         shape = np.array([extent, slenderness])
         for table in self.tables:
             if np.all(np.abs(np.array([table.extent, table.slenderness]) / shape - 1.0) < SAME):
-                # The bearing of a turbulent film has its mobility.
-                if self.mobility is not None or not self.reynolds_cells:
+                if self.mobility is not None or not in_bearing:
                     require_same_mobility(table.mobility, law_of(self.mobility))
                 return table
         return None

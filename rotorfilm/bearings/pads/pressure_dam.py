@@ -246,16 +246,6 @@ class PressureDamBearing(PadBearing, KernelReaction):
             if pad.recess is not None and first < last
         )
 
-    @property
-    def preloads(self) -> tuple[float, ...]:
-        """Preload of each pad [1]."""
-        return tuple(pad.preload for pad in self.pads)
-
-    @property
-    def extents(self) -> tuple[float, ...]:
-        """Angle that each pad covers [rad]."""
-        return tuple(pad.extent for pad in self.pads)
-
     @cached_property
     def kernel(self) -> DamKernel:
         """The films in compiled code; InputError without a stated temperature."""

@@ -27,7 +27,7 @@ from ...core.signals import Signal, force_outputs, journal_inputs
 from ...native import Status
 from ...native.pad_kernels import TiltingKernel, TiltingPoint
 from ...native.spec import NativeSpec, journal_spec
-from ..oil.heated_bearing import FilmHeat, HeatedBearing, fed_temperature
+from ..oil.heated_bearing import HeatedBearing
 from ..reaction import NOMINAL_SPEED, Called, broadcast_state, input_vector, without_overflow
 from .pad_bearing import OwnCenter, PadBearing
 from .pad_film import PadFilm, PadMapFilm, fitted_pad_film, with_pad_tables
@@ -152,12 +152,12 @@ class TiltingPadBearing(Called, PadBearing):
 
     @property
     def preloads(self) -> tuple[float]:
-        """The preload of all pads [1]."""
+        """Preload of the pads [1]."""
         return (self.preload,)
 
     @property
     def extents(self) -> tuple[float]:
-        """The angle that all pads cover [rad]."""
+        """Angle that each pad covers [rad]."""
         return (self.extent,)
 
     @property
@@ -295,19 +295,10 @@ class TiltingPadBearing(Called, PadBearing):
         """Return power loss, torques and oil flow under a journal at rest; see `StaticTiltingPads.losses`."""
         return self.at_rest().losses(position, velocity, speed, full_gap=full_gap)
 
-    def balanced_temperature(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> float:
-        """Return the temperature at which the heat of the film balances under a journal at rest [K].
-
-        Parameters and errors are those of `film_heat`.
-        """
-        if self.pivot_stiffness is None:
-            return super().balanced_temperature(position, velocity, speed)
-
-        # Springs give way to the load of the pads, and with it to the viscosity.
-        def heat(temperature: float) -> FilmHeat:
-            return self.at_temperature(temperature).film_heat(position, velocity, speed)
-
-        return fed_temperature(heat, *self.cooled)
+    @property
+    def reshapes(self) -> bool:
+        """Whether the shape of the film depends on its viscosity: springs of pivots give way to the load."""
+        return self.pivot_stiffness is not None or super().reshapes
 
     def in_time(self, start_temperature: float | None = None) -> HeatedBearing:
         """Raise InputError: the heat balance of tilting pads is modeled at rest only."""

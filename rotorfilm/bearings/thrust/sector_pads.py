@@ -40,7 +40,7 @@ from ...native.structs import structure
 from ..films.finite_volumes import COARSENING, LEVELS, are_counts
 from ..films.geometry import TURN
 from ..oil import Cooling, Oil
-from ..oil.heated_bearing import WarmBearing, require_lubricant
+from ..oil.heated_bearing import FilmHeat, WarmBearing, balance_temperature, require_lubricant
 from ..oil.oil import COLDEST_OIL, DENSITY, HOTTEST_OIL, warn_beyond_law
 from ..reaction import NOMINAL_SPEED
 from .film_tables import ThrustFilmTable, film_table
@@ -652,7 +652,6 @@ class SectorPads(WarmBearing):
         """
         oil, cooling = self.cooled
         power, inflow, outflow = self.film_heating(position, speed)
-        heat = float(oil.volumetric_heat(cooling.supply_temperature))
         carried = min(cooling.carry_over * max(outflow, 0.0) / inflow, 1.0) if inflow > 0.0 else 0.0
         if not inflow > 0.0 or not carried < 1.0:
             raise ConvergenceError(
@@ -660,17 +659,7 @@ class SectorPads(WarmBearing):
                 f"{np.asarray(position).tolist()}"
             )
         fresh = 0.5 + carried / (1.0 - carried)  # (T - supply) / rise
-
-        def missing(T: float) -> float:
-            lost = cooling.housing_conductance * (T - cooling.ambient)
-            rise = (power * float(oil.law.viscosity(T)) - lost) / (heat * inflow)
-            return cooling.supply_temperature + fresh * rise - T
-
-        low = cooling.coldest
-        high = low + 10.0
-        while missing(high) > 0.0:
-            high = low + 2.0 * (high - low)
-        return float(brentq(missing, low, high, xtol=1e-10)) if missing(low) > 0.0 else low
+        return balance_temperature(FilmHeat(power, 1.0, inflow / fresh, 0.0), oil, cooling)
 
     def in_time(self, start_temperature: float | None = None) -> Any:
         """Return the bearing as it runs: its film keeps the temperature of the rest."""
