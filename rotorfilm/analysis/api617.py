@@ -18,10 +18,11 @@ from ..core.port import Bearings, carries_load
 from ..core.readable import Drawable, Readable
 from ..core.results import Coefficients
 from ..rotors import ShaftRotor, Station
+from ..rotors.structure import freedom_rows
 from .coefficients import film_coefficients
 from .modal_reduction import exact_structure, lu_solver
 from .rotor_equilibrium import RotorEquilibrium, rotor_equilibrium
-from .rotor_matrices import dynamics, journal_rows, motion_near, oscillates, second_order, whirl_near
+from .rotor_matrices import dynamics, motion_near, oscillates, second_order, whirl_near
 from .rotor_modes import RotorModes, log_decrement, motions_about
 from .shaft_statics import chosen_stations, rigid_support_speed
 from .threads import one_blas_thread
@@ -643,7 +644,7 @@ class CrossCoupledRotor:
         """Smallest static stiffness [N/m] of the rotor on its bearings, where cross-coupling acts."""
         exact = exact_structure(self.rotor)
         solve = lu_solver(second_order(exact, self.at).stiffness)
-        rows = [journal_rows(exact, name) for name in self.shares]
+        rows = [freedom_rows(exact, name) for name in self.shares]
         return 1.0 / max(float(np.linalg.norm(pair @ solve(pair.T), 2)) for pair in rows)
 
     def under(self, cross_coupling: float) -> RotorEquilibrium:
@@ -691,7 +692,7 @@ class CrossCoupledRotor:
         driven = self.under(1.0).coefficients
         pushed = sum(
             (rows @ left).conj() @ driven[name].stiffness @ (rows @ right)
-            for name, rows in ((name, journal_rows(exact, name)) for name in self.shares)
+            for name, rows in ((name, freedom_rows(exact, name)) for name in self.shares)
         )
         rate = -pushed / (left.conj() @ (slope @ right))
         return ForwardWhirl(cross_coupling, found, right, complex(rate))

@@ -6,7 +6,7 @@ import math
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import nullcontext, suppress
-from ctypes import CFUNCTYPE, POINTER, byref, c_double, c_int, c_void_p, cast, memmove
+from ctypes import byref, c_double, memmove
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any, NamedTuple, Protocol, runtime_checkable
@@ -455,8 +455,6 @@ _LESS = 1.4
 _NO_FORCE = (UndefinedDerivativeError, FilmContactError, ConvergenceError, EquilibriumError)
 """What a film raises at a state that the search passes over."""
 
-_CALLBACK = CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double))
-
 
 class StaticTarget(NamedTuple):
     """What the search looks for: an rf_static_target, the film, and its force behind an address."""
@@ -535,8 +533,7 @@ def _called_back(film: Any) -> FilmCall:
             return Status.NOT_FINITE
         return Status.OK
 
-    function = _CALLBACK(answer)
-    return FilmCall(cast(function, c_void_p).value or 0, 0, owner=function, raised=raised)
+    return FilmCall.of_python(answer, raised)
 
 
 def search_place(target: StaticTarget) -> Any:

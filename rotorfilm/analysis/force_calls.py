@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from ctypes import CFUNCTYPE, POINTER, c_double, c_int, c_void_p, cast
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,8 +26,6 @@ from ..native import Status
 from ..native.film_call import MASSLESS, FilmCall
 from ..rotors import CrackedRotor
 from ..rotors.structure import station_name
-
-_CALLBACK = CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double))
 
 
 def raise_foreign(calls: Iterable[FilmCall]) -> None:
@@ -155,8 +152,7 @@ def _call_of(law: Callable[[Any], tuple[Array, Array]], raised: list[BaseExcepti
             return Status.NOT_FINITE
         return Status.OK
 
-    function = _CALLBACK(answer)
-    return FilmCall(address=cast(function, c_void_p).value or 0, data=0, owner=(function, law), raised=raised)
+    return FilmCall.of_python(answer, raised)
 
 
 class CrackForce(NamedTuple):

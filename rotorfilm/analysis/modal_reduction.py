@@ -80,28 +80,30 @@ class BandedMotion:
 
     def solve(self, s: complex, loads: np.ndarray) -> np.ndarray:
         """Return the displacements under loads, shape (N, m), that go with e^(s t)."""
-        tally("factorizations")
         band = (s * s) * self.bands[0] + s * self.bands[1] + self.bands[2] + 0.0j
-        factor, pivots, _ = zgbtrf(band, self.width, self.width, overwrite_ab=True)
-        found = np.empty(loads.shape, dtype=complex)
-        found[self.order] = zgbtrs(factor, self.width, self.width, loads[self.order], pivots)[0]
-        return found
+        return BandedFactor(band, self.width, self.order).solve(loads)
 
 
 class BandedFactor:
     """The LU factor of a complex sparse matrix, with exchange of rows."""
 
-    def __init__(self, matrix: Any) -> None:
+    def __init__(self, band: np.ndarray, width: int, order: Array) -> None:
         tally("factorizations")
-        self.order = band_order(abs(matrix) + abs(matrix).T)
-        rows, columns, values, self.width = _in_order(matrix, self.order)
-        band = np.zeros((3 * self.width + 1, len(self.order)), dtype=complex)
-        band[2 * self.width + rows - columns, columns] = values
-        self.factor, self.pivots, _ = zgbtrf(band, self.width, self.width, overwrite_ab=True)
+        self.width, self.order = width, order
+        self.factor, self.pivots, _ = zgbtrf(band, width, width, overwrite_ab=True)
+
+    @classmethod
+    def of(cls, matrix: Any) -> BandedFactor:
+        """Return the factor of a sparse matrix."""
+        order = band_order(abs(matrix) + abs(matrix).T)
+        rows, columns, values, width = _in_order(matrix, order)
+        band = np.zeros((3 * width + 1, len(order)), dtype=complex)
+        band[2 * width + rows - columns, columns] = values
+        return cls(band, width, order)
 
     def solve(self, load: np.ndarray, adjoint: bool = False) -> np.ndarray:
-        """Return the inverse of the matrix, or of its conjugate transpose, times a load, shape (N,)."""
-        found = np.empty_like(self.factor[0])
+        """Return the inverse of the matrix, or of its conjugate transpose, times loads, shape (N, ...)."""
+        found = np.empty(load.shape, dtype=complex)
         found[self.order] = zgbtrs(
             self.factor, self.width, self.width, load[self.order], self.pivots, trans=2 if adjoint else 0
         )[0]
@@ -114,7 +116,7 @@ def lu_solver(matrix: Any) -> Callable[..., np.ndarray]:
     With `adjoint` it is the conjugate transpose that is solved; a sparse matrix may be complex.
     """
     if sparse.issparse(matrix):
-        return BandedFactor(matrix).solve
+        return BandedFactor.of(matrix).solve
     tally("factorizations")
     factor = lu_factor(matrix, check_finite=False)
     return lambda load, adjoint=False: np.asarray(lu_solve(factor, load, trans=2 if adjoint else 0))

@@ -196,11 +196,6 @@ def motion_near(
     return lambda s: system
 
 
-def journal_rows(structure: Structure, name: str) -> Array:
-    """Return the displacement of a journal from its housing, shape (2, N)."""
-    return freedom_rows(structure, name)
-
-
 # One whirl of a rotor at a speed, by inverse iteration: dense, or banded in a rotor of many elements.
 
 

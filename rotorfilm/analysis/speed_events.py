@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,7 +11,6 @@ import numpy as np
 from ..core.errors import AbsentError, ConvergenceError
 from ..core.model import Array
 from ..core.port import Bearings, freedoms_of
-from ..core.results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, freedom_rows
 from . import rotor_matrices
@@ -220,11 +218,6 @@ class Whirl(NamedTuple):
     value: complex
     right: np.ndarray
     left: np.ndarray
-
-
-def on_films(at: RotorEquilibrium, found: dict[str, Coefficients]) -> RotorEquilibrium:
-    """Return an equilibrium with other K and C of its bearings."""
-    return replace(at, coefficients=found)
 
 
 def value_rate(structure: Structure, whirl: Whirl, turning: Bearings) -> complex:

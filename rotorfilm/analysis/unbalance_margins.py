@@ -25,10 +25,9 @@ from ..core.signals import PLANAR
 from ..core.units import STANDARD_GRAVITY
 from ..rotors import ShaftRotor, SpeedProfile, Unbalance
 from ..rotors.shaft_rotor import split
-from ..rotors.structure import in_planes, mean_plane
+from ..rotors.structure import freedom_rows, in_planes, mean_plane
 from .closed_loop import frequency_response, synchronous_response
 from .rotor_equilibrium import RotorEquilibrium
-from .rotor_matrices import journal_rows
 from .rotor_modes import rotor_modes
 from .shaft_statics import lowest_modes
 from .threads import one_blas_thread
@@ -540,7 +539,7 @@ def _shape(rotor: ShaftRotor, at: RotorEquilibrium, mode: int) -> Array:
     for name, film in at.coefficients.items():
         if freedoms_of(film)[:2] != PLANAR:
             continue
-        row = journal_rows(full, name)[:1, :n]
+        row = freedom_rows(full, name)[:1, :n]
         stiffness = stiffness + 0.5 * float(np.trace(film.stiffness[:2, :2])) * sparse.csr_array(row.T @ row)
     _, modes = lowest_modes(stiffness, mass, mode)
     if modes.shape[1] < mode:

@@ -34,7 +34,7 @@ from .errors import (
     warn_user,
 )
 from .limits import MAGNITUDE, NUMBER
-from .readable import as_data_sheet
+from .readable import ENTRY, as_data_sheet, units
 from .units import DISPLAY_UNITS, UNITS, WEIGHT, parse_quantity, si_name
 
 # Public functions: quantities with their units, and arguments of the wrong kind that name themselves.
@@ -62,19 +62,10 @@ P = ParamSpec("P")
 R = TypeVar("R")
 T = TypeVar("T")
 
-ENTRY = re.compile(r"(\w+(?:, \w+)*) : (.+)")
-"""The head of an entry of a numpydoc section."""
-
 UNIT = re.compile(r"[a-df-z%]", re.IGNORECASE)
 """What every unit has, and no number by itself."""
 
 ANY = ("", float("-inf"), float("inf"))
-
-
-def entry_units(kind: str, count: int) -> list[str]:
-    """Return the units of the names of one entry: one for each, or one for all; empty for none."""
-    found = [unit for text in re.findall(r"\[([^\[\]]+)\]", kind) for unit in text.split(", ")]
-    return found if len(found) == count else [", ".join(dict.fromkeys(found))] * count
 
 
 @cache
@@ -86,7 +77,7 @@ def units_of(documented: Any) -> Mapping[str, str]:
         for line in inspect.cleandoc(vars(home).get("__doc__") or home.__doc__ or "").splitlines():
             if match := ENTRY.fullmatch(line):
                 names = match[1].split(", ")
-                for name, unit in zip(names, entry_units(match[2], len(names)), strict=True):
+                for name, unit in zip(names, units(match[2], len(names)), strict=True):
                     found.setdefault(name, unit)
     return {name: unit for name, unit in found.items() if si_name(unit) in UNITS}
 
@@ -187,8 +178,8 @@ def temperatures_of(documented: Any) -> frozenset[str]:
                 name = match[1]
             elif "above ambient" in line:
                 above.add(name)
-    units = units_of(documented)
-    return frozenset(one for one in units if one.endswith("temperature") and units[one] == "K") - above
+    known = units_of(documented)
+    return frozenset(one for one in known if one.endswith("temperature") and known[one] == "K") - above
 
 
 def _read(home: Any, name: str, value: Any) -> Any:

@@ -496,7 +496,7 @@ class Entry(NamedTuple):
 
 
 def units(kind: str, count: int) -> list[str]:
-    """Return the units of the names of one entry: one for each, or one for all."""
+    """Return the units of the names of one entry: one for each, or one for all; empty for none."""
     found = [unit for text in UNIT.findall(kind) for unit in text.split(", ")]
     return found if len(found) == count else [", ".join(dict.fromkeys(found))] * count
 

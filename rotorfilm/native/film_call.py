@@ -9,14 +9,16 @@ with state = (x, y, vx, vy, speed).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from ctypes import addressof, c_void_p, cast
+from collections.abc import Callable, Sequence
+from ctypes import CFUNCTYPE, POINTER, addressof, c_double, c_int, c_void_p, cast
 from functools import cache
 from typing import Any, NamedTuple
 
 from ..core.model import Array
 from .library import functions, loops
 from .structs import structure
+
+_CALLBACK = CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double))
 
 MASSLESS = (0, 0)
 """Where the added mass of a force without one is."""
@@ -53,6 +55,14 @@ class FilmCall(NamedTuple):
     def of_numbers(cls, function: str, numbers: Array) -> FilmCall:
         """Return a force of the C library by its name, which reads these numbers."""
         return cls(address_of(function), numbers.ctypes.data, numbers)
+
+    @classmethod
+    def of_python(
+        cls, answer: Callable[[Any, Any, Any, Any], int], raised: Sequence[BaseException]
+    ) -> FilmCall:
+        """Return a force in Python, which must not raise, and where its errors go."""
+        function = _CALLBACK(answer)
+        return cls(cast(function, c_void_p).value or 0, 0, function, raised=raised)
 
     def beside(self, stiffness: float, *, still: bool) -> FilmCall:
         """Return this force beside equal springs [N/m], of a journal that does not spin where it is still."""

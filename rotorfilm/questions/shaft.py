@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -23,6 +23,7 @@ from ..core.errors import AbsentError
 from ..core.model import Array
 from ..core.results import Coefficients
 from ..rotors.shaft_rotor import ShaftModel, shaft_models
+from ..rotors.structure import freedom_rows
 from ..scenes.film_heat import FIELD_LEVELS, FieldLevel, WarmRest
 from . import shaft_films
 from .film_statics import moving_heat
@@ -251,7 +252,7 @@ class ShaftSpeedRung(shaft_films.ShaftRung):
         self, whirl: speed_events.Whirl, rate: float, coefficients: dict[str, Coefficients], doubt: str
     ) -> CorrectedSpeed:
         frequency = self.event.frequency(whirl.value, whirl.at.speed)
-        at, structure = speed_events.on_films(whirl.at, coefficients), self.model.finer.structure
+        at, structure = replace(whirl.at, coefficients=coefficients), self.model.finer.structure
         system = rotor_matrices.motion_near(structure, at, frequency)(whirl.value)
         right, left = self.model.lifted(whirl.right), self.model.lifted(whirl.left)
         _, first, last = rotor_matrices.inverse_steps(system, whirl.value, right, left, 3)
@@ -270,7 +271,7 @@ class ShaftSpeedRung(shaft_films.ShaftRung):
         for name, bound in shaft_films.coefficient_bounds(self.films, whirl.at).items():
             if not math.isfinite(bound):
                 return bound
-            rows, film = rotor_matrices.journal_rows(structure, name), whirl.at.coefficients[name]
+            rows, film = freedom_rows(structure, name), whirl.at.coefficients[name]
             # what an entry of K, and of C, of this size does to the eigenvalue
             by_stiffness = np.outer((rows @ whirl.left).conj(), rows @ whirl.right) / scale
             for change, entries in ((1.0, film.stiffness), (whirl.value, film.damping)):
@@ -351,8 +352,8 @@ def field_speed(level: FieldLevel, rung: ShaftSpeedRung) -> FunctionRung:
             nonlocal whirl
             at = rotor_equilibrium(rung.model.rotor, rung.films.reaction, speed)
             rests = shaft_films.field_rests(rung.films, at, level)
-            warm = speed_events.on_films(
-                at, {**at.coefficients, **{n: one.coefficients for n, one in rests.items()}}
+            warm = replace(
+                at, coefficients={**at.coefficients, **{n: one.coefficients for n, one in rests.items()}}
             )
             frequency = event.frequency(whirl.value, speed)
             whirl = speed_events.Whirl(

@@ -19,7 +19,6 @@ from ..analysis.driven_rotor import (
     rotor_answers,
 )
 from ..analysis.harmonic_balance import driven, first_wave, newton_step, resized, rms
-from ..analysis.speed_events import on_films
 from ..core.answers import DISAGREEMENT, SAFETY, ErrorEstimate, Ladder, Rung, RungResult, Work, WorkUnit
 from ..core.errors import ContactError, InputError
 from ..core.model import Array
@@ -140,7 +139,7 @@ class ShaftOrbitRung(shaft_films.ShaftRung):
         """Return the quantity of the linear orbit on these K and C."""
         at = self.rest(found)
         structure = self.model.rotor.structure
-        answers = rotor_answers(structure, on_films(at, coefficients), self.place.probes, LINEAR)
+        answers = rotor_answers(structure, replace(at, coefficients=coefficients), self.place.probes, LINEAR)
         return self.place.value(answers, answers.linear_orbit(rest_position(at, answers.stations)))
 
     def distance(self, value: float, better: float) -> float:

@@ -9,6 +9,7 @@ if TYPE_CHECKING:
         BaseExcitedRotor as BaseExcitedRotor,
         BaseMotion as BaseMotion,
         ForcedRotor as ForcedRotor,
+        SkewedCollar,
         TimeExcitedRotor,
         node_loads,
         translations,
@@ -52,7 +53,6 @@ if TYPE_CHECKING:
         cowper_coefficient,
     )
     from .shaft_rotor import ShaftRotor as ShaftRotor
-    from .skewed_collar import SkewedCollar
     from .structure import FlexibleRotor as FlexibleRotor, require_flexible
 else:
     show(__name__)

@@ -1,7 +1,8 @@
-"""Excitation over time: a rotor on ground that shakes, and forces at nodes of a shaft."""
+"""Excitation over time: ground that shakes, forces at nodes of a shaft, a thrust collar out of square."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -10,14 +11,29 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.errors import InputError, require_finite, require_kind, require_positive
+from ..core.errors import (
+    InputError,
+    require_each,
+    require_finite,
+    require_kind,
+    require_number,
+    require_positive,
+)
 from ..core.inputs import in_si, quantities
 from ..core.limits import STEPS
 from ..core.model import Array, breakpoints
+from ..core.signals import indices, names
 from .reduced_rotor import ReducedRotor
 from .rigid import RigidRotor
 from .shaft_rotor import ShaftRotor
-from .structure import AroundStructure, FlexibleRotor, dense_matrix
+from .structure import (
+    AroundStructure,
+    FlexibleRotor,
+    dense_matrix,
+    freedom_rows,
+    require_flexible,
+    station_names,
+)
 
 PER_PERIOD = 20
 """Samples per period of the highest frequency of a spectrum: chords between them are 0.4 % off."""
@@ -300,3 +316,56 @@ def _under(rotor: FlexibleRotor, gravity: tuple[float, float]) -> Array:
     turned: Any = replace(rotor, gravity=gravity)  # type: ignore[type-var]
     s = turned.assembly
     return np.asarray(np.linalg.solve(dense_matrix(s.mass), s.weight))
+
+
+TILTS = ("tilt_x", "tilt_y")
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class SkewedCollar(AroundStructure):
+    """A rotor whose thrust collar is out of square: a Dynamic model for runs over time.
+
+    What acts at the station feels the tilts of the shaft plus skew (cos p, sin p), p being the angle that the
+    shaft has turned since t = 0 and `skew_angle`: it shakes the moments at once per turn. The tilts among the
+    outputs are those of the collar's face. `collar_response` is the same for small motion.
+
+    Parameters
+    ----------
+    rotor : FlexibleRotor
+        With a station that feels tilts.
+    station : str
+        Where the collar is.
+    skew : float [rad]
+        Angle between the face of the collar and the plane across the shaft.
+    skew_angle : float [rad]
+        Direction of the axis about which the face is turned, from +x at t = 0.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule, or the rotor has no such station or tilts there.
+    """
+
+    rotor: FlexibleRotor
+    station: str
+    skew: float
+    skew_angle: float = 0.0
+
+    def __post_init__(self) -> None:
+        require_flexible(self.rotor)
+        freedom_rows(self.rotor.assembly, self.station, TILTS)
+        require_each(self, require_number, "skew", "skew_angle")
+
+    @cached_property
+    def _places(self) -> list[int]:
+        motion = station_names(self.station, TILTS)[0]
+        return indices("rotor must have the outputs", names(self.rotor.outputs), motion)
+
+    def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return the outputs of the rotor, with the tilts of the collar at its station."""
+        found, turning = np.array(self.rotor.output(t, x, u)), self.rotor.profile
+        p, speed = turning.angle(t) + self.skew_angle, turning.speed(t)
+        c, s = self.skew * math.cos(p), self.skew * math.sin(p)
+        found[self._places] += [c, s, -speed * s, speed * c]
+        return found

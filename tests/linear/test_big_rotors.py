@@ -248,7 +248,7 @@ def test_banded_factors_solve():
     load = random.normal(size=(60, 2)) + 1j * random.normal(size=(60, 2))
     assert_allclose(BandedCholesky(matrix).solve(load), np.linalg.solve(matrix.toarray(), load), rtol=1e-9)
     skewed = sparse.csr_array(matrix + 0.4j * sparse.triu(matrix))
-    factor = BandedFactor(skewed)
+    factor = BandedFactor.of(skewed)
     dense = skewed.toarray()
     assert_allclose(factor.solve(load[:, 0]), np.linalg.solve(dense, load[:, 0]), rtol=1e-9)
     assert_allclose(

@@ -27,7 +27,6 @@ from rotorfilm.analysis.speed_events import (
     CRITICAL,
     THRESHOLD,
     Start,
-    on_films,
     value_rate,
     whirl_of,
 )
@@ -175,7 +174,7 @@ def test_bound_of_speeds_is_that_of_the_worst_films_within_theirs(quantity):
     own, changes = coefficient_bounds(rung.films, whirl.at), []
     for _ in range(200):
         off = {name: with_error(film, random) for name, film in whirl.at.coefficients.items()}
-        at = on_films(whirl.at, off)
+        at = replace(whirl.at, coefficients=off)
         value, *_ = whirl_near(structure, at, abs(whirl.value), whirl.value, whirl.right)
         changes.append(abs(rung.event.lead(value, whirl.at.speed) / rate) / whirl.at.speed)
     # to 1e-3 of the largest entry, where the bounds are those of the films
@@ -285,7 +284,7 @@ def test_bound_of_films_is_that_of_what_is_asked(quantity, at, sense):
     for _ in range(300):
         # to 1e-3 of the largest entry, in the corners of that box
         off = {name: with_error(film, random) for name, film in turn.at.coefficients.items()}
-        at_rest = on_films(turn.at, off)
+        at_rest = replace(turn.at, coefficients=off)
         answers = rotor_answers(structure, at_rest, rung.place.probes, 15)
         moved = rung.place.value(answers, answers.linear_orbit(rest_position(at_rest, answers.stations)))
         changes.append(rung.place.change(found.value, moved))
