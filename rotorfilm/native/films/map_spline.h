@@ -72,8 +72,8 @@ static inline void rf_layers(const double *c, size_t layer, size_t row, const do
         rf_rows(c + j * row, layer, b, sum + j * RF_ORDER);
 }
 
-/* From the coefficients on, over x, with three axes over y, and over s. Order 0 is m and m_s, order 1 has the other first
-   derivatives, order 2 all. */
+/* From the coefficients on, over x, with three axes over y, and over s. Order -1 is m alone, order 0 has m_s too, order 1
+   the other first derivatives, order 2 all. */
 static RF_INLINE void rf_evaluate(const double *c, int axes, int order, const size_t *strides, const rf_weights *by,
                                   rf_spline *at)
 {
@@ -95,7 +95,8 @@ static RF_INLINE void rf_evaluate(const double *c, int axes, int order, const si
             rf_rows(c, strides[0], x->slope, row_x);
     }
     at->m = rf_dot(row, s->value);
-    at->m_s = s->per * rf_dot(row, s->slope);
+    if (order >= 0)
+        at->m_s = s->per * rf_dot(row, s->slope);
     if (order > 0)
         at->m_x = x->per * rf_dot(row_x, s->value);
     if (order > 1) {

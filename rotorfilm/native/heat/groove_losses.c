@@ -4,9 +4,12 @@
 
 #include "loss_frame.h"
 
-void rf_opened_spline(const double *coefficients, const size_t *strides, const rf_weights *by, rf_spline *at)
+void rf_opened_spline(const double *coefficients, int order, const size_t *strides, const rf_weights *by, rf_spline *at)
 {
-    rf_evaluate(coefficients, 3, 1, strides, by, at);
+    if (order < 0)
+        rf_evaluate(coefficients, 3, -1, strides, by, at);
+    else
+        rf_evaluate(coefficients, 3, 1, strides, by, at);
 }
 
 /* A flow, and its derivatives by chi and the angle of e. */
@@ -14,23 +17,27 @@ typedef struct plane {
     double value, by_chi, by_angle;
 } plane;
 
-/* The splines under e over X and, as the last axis, theta; chi. */
-static double weigh(const rf_loss_map *map, const double *e, rf_weights *by)
+/* The splines under e over X and, as the last axis, theta, up to an order of derivatives; chi. */
+static double weigh(const rf_loss_map *map, const double *e, int order, rf_weights *by)
 {
     double slope;
     const double chi = rf_length(e[0], e[1]), x = rf_stretch(chi, &slope);
-    rf_weigh_from_zero(&map->x, fmin(x, map->x.last), 1, by);
+    rf_weigh_from_zero(&map->x, fmin(x, map->x.last), order, by);
     by->per *= x > map->x.last ? 0.0 : slope;
-    rf_weigh_angle(&map->y, (chi > 0.0 ? atan2(e[1], e[0]) : 0.0) - map->axis, 1, by + 2);
+    rf_weigh_angle(&map->y, (chi > 0.0 ? atan2(e[1], e[0]) : 0.0) - map->axis, order, by + 2);
     return chi;
 }
 
 /* The flow of row k, (out, in) x openings, over half the speed. None is below zero. */
-static plane opening_flow(const rf_loss_map *map, const rf_weights *by, int backward, size_t k)
+static plane opening_flow(const rf_loss_map *map, const rf_weights *by, int order, int backward, size_t k)
 {
     const size_t width = rf_width(&map->y), rows = 2 * (size_t)map->openings;
-    rf_spline m;
-    rf_evaluate(map->flows + ((backward ? rows : 0) + k) * rf_width(&map->x) * width, 2, 1, &width, by, &m);
+    const double *c = map->flows + ((backward ? rows : 0) + k) * rf_width(&map->x) * width;
+    rf_spline m = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    if (order < 0)
+        rf_evaluate(c, 2, -1, &width, by, &m);
+    else
+        rf_evaluate(c, 2, 1, &width, by, &m);
     const plane found = {m.m, m.m_x, m.m_s}, none = {0.0, 0.0, 0.0};
     return m.m > 0.0 ? found : none;
 }
@@ -41,10 +48,10 @@ int rf_groove_flows(const rf_loss_map *map, size_t n, const double *e, const dou
     rf_weights by[3];
     for (size_t i = 0; i < n; ++i) {
         const double here[2] = {e[i], e[n + i]};
-        if (!(weigh(map, here, by) < 1.0))
+        if (!(weigh(map, here, -1, by) < 1.0))
             return RF_AT_WALL;
         for (size_t k = 0; k < rows; ++k)
-            flows[k * n + i] = fabs(rate[i]) * opening_flow(map, by, rate[i] < 0.0, k).value;
+            flows[k * n + i] = fabs(rate[i]) * opening_flow(map, by, -1, rate[i] < 0.0, k).value;
     }
     return RF_OK;
 }
@@ -76,10 +83,11 @@ double rf_replaced_flow(const rf_loss_map *map, const double *e, double rate, do
 {
     rf_weights by[3];
     plane sum = {0.0, 0.0, 0.0};
-    const double chi = weigh(map, e, by);
+    const int order = slope ? 1 : -1;
+    const double chi = weigh(map, e, order, by);
     for (size_t k = 0; k < (size_t)map->openings; ++k) {
-        const plane out = opening_flow(map, by, rate < 0.0, k);
-        const plane in = opening_flow(map, by, rate < 0.0, k + (size_t)map->openings);
+        const plane out = opening_flow(map, by, order, rate < 0.0, k);
+        const plane in = opening_flow(map, by, order, rate < 0.0, k + (size_t)map->openings);
         double by_out, by_in;
         sum.value += replaced(out.value, in.value, carry_over, &by_out, &by_in);
         sum.by_chi += by_in * in.by_chi + by_out * out.by_chi;

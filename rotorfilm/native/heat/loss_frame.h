@@ -20,8 +20,8 @@ int rf_orient_loss(const double *e, const double *w, rf_frame *at);
 /* Losses and, unless NULL, slopes from those in polar axes. The flow, the last one, is that of a source of size 1. */
 int rf_answer_losses(const rf_frame *at, const rf_polar *of, int first, double *losses, double *slopes);
 
-/* A map of losses over X, theta and s, with first derivatives. */
-void rf_opened_spline(const double *coefficients, const size_t *strides, const rf_weights *by, rf_spline *at);
+/* A map of losses over X, theta and s, with first derivatives where the order is not -1. */
+void rf_opened_spline(const double *coefficients, int order, const size_t *strides, const rf_weights *by, rf_spline *at);
 
 /* Not-a-number, and the status. */
 int rf_fail_losses(int status, double *losses, double *slopes);

@@ -106,7 +106,7 @@ static rf_polar loss_of(const rf_loss_map *map, size_t k, const rf_spline *m, co
 int rf_map_losses(const void *of, const double *e, const double *w, int first, double *losses, double *slopes)
 {
     const rf_loss_map *map = of;
-    const int opened = map->y.cells > 0;
+    const int opened = map->y.cells > 0, order = slopes ? 1 : -1;
     rf_frame at;
     rf_polar loss[RF_LOSSES];
     const int status = rf_orient_loss(e, w, &at);
@@ -118,10 +118,10 @@ int rf_map_losses(const void *of, const double *e, const double *w, int first, d
     const double x = rf_stretch(at.chi, &slope), q = map->squeeze, across = fabs(at.sin);
     const size_t width = rf_width(&map->s), strides[] = {opened ? rf_width(&map->y) * width : width, width};
     const size_t all = rf_width(&map->x) * strides[0];
-    rf_weigh_from_zero(&map->x, fmin(x, map->x.last), 1, by);
+    rf_weigh_from_zero(&map->x, fmin(x, map->x.last), x > map->x.last ? 1 : order, by);
     if (opened)
-        rf_weigh_angle(&map->y, atan2(at.ry, at.rx) - map->axis, 1, by + 1);
-    rf_weigh_from_zero(&map->s, atan2(q * across, at.cos), 1, by + 2);
+        rf_weigh_angle(&map->y, atan2(at.ry, at.rx) - map->axis, order, by + 1);
+    rf_weigh_from_zero(&map->s, atan2(q * across, at.cos), order, by + 2);
     by[2].per = (at.sin > 0.0 ? -by[2].per : by[2].per) * q / (at.cos * at.cos + q * q * across * across);
     if (x > map->x.last && opened)
         slope = 0.0;
@@ -131,9 +131,11 @@ int rf_map_losses(const void *of, const double *e, const double *w, int first, d
     }
     for (size_t k = (size_t)first; k < RF_LOSSES; ++k) {
         if (opened)
-            rf_opened_spline(map->coefficients + (k + (at.sin >= 0.0 ? 0 : RF_LOSSES)) * all, strides, by, &m);
-        else
+            rf_opened_spline(map->coefficients + (k + (at.sin >= 0.0 ? 0 : RF_LOSSES)) * all, order, strides, by, &m);
+        else if (slopes)
             rf_evaluate(map->coefficients + k * all, 2, 1, strides, by, &m);
+        else
+            rf_evaluate(map->coefficients + k * all, 2, -1, strides, by, &m);
         loss[k] = loss_of(map, k, &m, &at, slope);
     }
     return rf_answer_losses(&at, loss, first, losses, slopes);
