@@ -550,7 +550,7 @@ def continued_place(target: StaticTarget, best: Any) -> Any:
     There the film holds the journal in one direction only, and nothing tells Newton's method how far across
     the next pad begins, whose load grows as the root of the way.
     """
-    if not math.isfinite(best.norm):
+    if not math.isfinite(best.norm) or (best.s > LARGEST_S - 1e-12 and best.ratio < 0.0):
         return best
     x, y = target.struct.force
     fx, fy = best.force

@@ -19,6 +19,8 @@
 #define MOST_PHI 1.0
 #define HALVINGS 26 /* the load of a tilting pad begins as the root of the way: steps beyond its edge are too long */
 #define STARTS 14
+#define ALONG 0.1    /* angle to the load [rad], and */
+#define FEEBLE -0.69 /* logarithm of the share of the load, of a force at the wall that shows that none will do */
 
 static double size_of(const double *v)
 {
@@ -137,7 +139,10 @@ static int search(const rf_static_target *target, rf_static_point *best)
         const int status = rf_static_newton(target, s, phi, STEPS, &tried);
         if (first || status || tried.found || tried.norm < best->norm)
             *best = tried;
-        if (status || best->found)
+        const int spent = tried.s >= LARGEST_S && tried.ratio < FEEBLE && fabs(tried.angle) < ALONG;
+        if (spent && !best->found)
+            *best = tried;
+        if (status || best->found || spent)
             return status;
         first = 0;
     }
