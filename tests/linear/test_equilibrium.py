@@ -161,6 +161,16 @@ def test_load_beyond_capacity_is_named_with_the_force_at_the_limit(bearing, ocvi
     assert equilibrium(bearing, [0.999 * limit, 0.0], -SPEED).eccentricity_ratio < 0.9999
 
 
+def test_a_load_far_beyond_capacity_is_refused_after_one_search(linear_film, monkeypatch):
+    film, asked = linear_film(1e6 * np.eye(2), np.eye(2)), []
+    own = type(film).jacobian
+    monkeypatch.setattr(type(film), "jacobian", lambda *args: asked.append(1) or own(*args))
+    with pytest.raises(EquilibriumError, match="must be within the film's capacity"):
+        equilibrium(film, [0.0, -10.0 * 1e6 * film.clearance], SPEED)
+    # 96 of them look for the directions in which the film pushes.
+    assert len(asked) < 200
+
+
 def test_no_wedge_without_rotation(bearing):
     with pytest.raises(EquilibriumError, match=r"speed must let the film carry the load.* 0\.0 rad/s.*525"):
         equilibrium(bearing, [0.0, -525.0], 0.0)
