@@ -563,7 +563,9 @@ def continued_place(target: StaticTarget, best: Any) -> Any:
         return target._replace(struct=struct)
 
     for share in _ACROSS:
-        across = max(share * target.size, left)
+        across = share * target.size
+        if across <= left:  # the load itself, whose search has failed
+            continue
         point = search_place(pulled(across))
         while across > left and point.found:
             across = max(across / _LESS, left)

@@ -60,6 +60,30 @@ def test_a_pad_that_no_warm_film_carries_is_refused_at_its_temperature():
         rf.equilibrium(pads, load, 222.0)
 
 
+def test_pads_whose_force_no_number_holds_are_refused():
+    sizes = {"inner_radius": 0.03, "outer_radius": 0.06, "pads": 8, "pad_arc": 0.6}
+    pads = rf.ThrustBearing(**sizes, taper_depth=1e-300, viscosity=0.02)
+    with pytest.raises(rf.InputError, match=r"outer_radius and the depth of the pads must not overflow"):
+        rf.equilibrium(pads, [-1000.0, 0.0, 0.0], 300.0)
+
+
+def test_a_load_far_beyond_any_force_ends_the_search_at_its_first_start():
+    calls = []
+
+    def force(x, y, vx, vy, speed):
+        calls.append(x)
+        stiffness = 1e6 / (1.0 - (x**2 + y**2) / 1e-8)
+        return -stiffness * x - 1e4 * vx, -stiffness * y - 1e4 * vy
+
+    own, asked = rf.as_reaction(force, clearance=1e-4), []
+    for load in (1e30, 1e12):
+        calls.clear()
+        with pytest.raises(rf.EquilibriumError, match="load must be within the film's capacity"):
+            rf.equilibrium(own, [0.0, -load], 100.0)
+        asked.append(len(calls))
+    assert asked[0] < 0.5 * asked[1]
+
+
 def test_an_answer_without_a_bound_is_json():
     assert json.loads(json_text({"a": math.inf, "b": np.array([1.0, -np.inf])})) == {
         "a": None,

@@ -396,8 +396,15 @@ class SectorPads(WarmBearing):
 
     @property
     def nominal_force(self) -> float:
-        """Typical force [N]."""
-        return 0.1 * self.film_viscosity * NOMINAL_SPEED * self.outer_radius**4 / self.film_scale**2
+        """Typical force [N]; InputError where it is beyond what a number can hold."""
+        viscosity, radius, film = self.film_viscosity, self.outer_radius, self.film_scale
+        try:
+            return 0.1 * viscosity * NOMINAL_SPEED * radius**4 / film**2
+        except (OverflowError, ZeroDivisionError):
+            raise InputError(
+                "outer_radius and the depth of the pads must not overflow the force viscosity speed "
+                f"radius^4 / depth^2, got a radius of {radius!r} m and a depth of {film!r} m"
+            ) from None
 
     @property
     def arm(self) -> float:
@@ -412,9 +419,10 @@ class SectorPads(WarmBearing):
     @property
     def outputs(self) -> tuple[Signal, ...]:
         """Signals force_z, moment_x, moment_y on the shaft, and its torque."""
+        force = self.nominal_force
         size = self.film_viscosity * NOMINAL_SPEED * self.outer_radius**4 / self.film_scale
         torque = ("torque", "N.m", size, "torque on the shaft about +z")
-        return (*force_outputs(self.nominal_force, self.freedoms, self.arm), *signals_of(torque))
+        return (*force_outputs(force, self.freedoms, self.arm), *signals_of(torque))
 
     @cached_property
     def kernel(self) -> ThrustKernel:

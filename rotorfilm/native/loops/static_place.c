@@ -19,7 +19,7 @@
 #define MOST_PHI 1.0
 #define HALVINGS 26 /* the load of a tilting pad begins as the root of the way: steps beyond its edge are too long */
 #define STARTS 14
-#define ALONG 0.1    /* angle to the load [rad], and */
+#define ALONG 0.1   /* angle to the load [rad], and */
 #define FEEBLE -0.1  /* logarithm of the share of the load, of a force at the wall that shows that none will do */
 
 static double size_of(const double *v)
