@@ -336,9 +336,7 @@ def scaled_film(damper: JFODamper) -> ScaledFilm:
 
 
 def _pocket(hole: FeedHole, radius: float, length: float) -> Pocket:
-    largest = min(length * hole.diameter / hole.side, 2.0 * radius)
-    if hole.diameter >= largest:
-        raise InputError(f"diameter of a hole must be below {largest:.6g} m, got {hole.diameter!r}")
+    hole.require_fit(radius, length)
     return Pocket(center=hole.center, width=hole.side / radius, share=hole.side / length)
 
 

@@ -71,6 +71,15 @@ class FeedHole:
         """Side of the square of the same area [m]."""
         return 0.5 * math.sqrt(math.pi) * self.diameter
 
+    def require_fit(self, radius: float, length: float) -> None:
+        """Raise InputError where its square leaves no room in a bearing of a radius and a length [m]."""
+        largest = min(length * self.diameter / self.side, 2.0 * radius)
+        if self.diameter >= largest:
+            raise InputError(
+                f"diameter of a feed hole must be below {largest:.6g} m, that of the bearing or of the "
+                f"circle whose square is as long, got {self.diameter!r}"
+            )
+
 
 @dataclass(frozen=True, kw_only=True)
 class Pocket:

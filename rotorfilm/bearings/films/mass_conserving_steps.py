@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from collections.abc import Callable
 from ctypes import byref, c_int64
 from dataclasses import dataclass, replace
@@ -515,13 +516,13 @@ class ConservedAtRest:
     """The force of a film that conserves its oil under a journal at rest, or on an orbit it is used to."""
 
     @property
+    @abstractmethod
     def scaled(self) -> ScaledFilm:
         """The film without dimensions, its units, and what is beside it."""
-        raise NotImplementedError
 
+    @abstractmethod
     def at_place(self, position: Array, velocity: Array, speed: float) -> tuple[ConservedState, Array, float]:
         """Return a film that has a force without its past, the axes in which it stands, and their speed."""
-        raise NotImplementedError
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force of film and springs, shape (2, ...) [N]; (4, ...) with moments [N m] of tilts.

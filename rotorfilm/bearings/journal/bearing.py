@@ -468,12 +468,7 @@ def film_geometry(
 def _sized(opening: Opening, radius: float, length: float) -> tuple[float, float, float]:
     """Return center and width [rad] of an opening, and its length [m]."""
     if isinstance(opening, FeedHole):
-        largest = min(length * opening.diameter / opening.side, 2.0 * radius)
-        if opening.diameter >= largest:
-            raise InputError(
-                f"diameter of a feed hole must be below {largest:.6g} m, that of the bearing or of the "
-                f"circle whose square is as long, got {opening.diameter!r}"
-            )
+        opening.require_fit(radius, length)
         return opening.center, opening.side / radius, opening.side
     along = length if opening.length is None else opening.length
     if along > length * (1.0 + ROUNDOFF):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, TypeVar
@@ -81,15 +82,15 @@ class HeatRounds:
         require_kind("walls", self.walls, Walls, "walls such as BushRing(...) or AdiabaticWalls()")
         require_kind("profile", self.profile, FilmProfile, "a profile such as MeanTemperature()")
 
+    @abstractmethod
     def _shape(self) -> tuple[int, int]:
         """Return the number of lines, and of cells on each."""
-        raise NotImplementedError
 
+    @abstractmethod
     def _round(
         self, position: Array, speed: float, temperature: Array, before: HeatedState | None, closing: bool
     ) -> HeatedState:
         """Return one round; arguments are checked, those of `warmed` and the temperature of the viscosity."""
-        raise NotImplementedError
 
     @property
     def supply_temperature(self) -> float:
@@ -156,9 +157,9 @@ class HeatRounds:
         T = np.broadcast_to(temperature, self._fresh().shape).astype(float)
         return self._round(*self._checked(position, speed), T, None, closing)
 
+    @abstractmethod
     def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> Any:
         """Return the film of the viscosity at a temperature [K], as it is fed at a position [m]."""
-        raise NotImplementedError
 
     def following(self, state: HeatedState) -> Any:
         """Return the film of the viscosity that the oil of a state has got, as the next round takes it."""

@@ -63,20 +63,17 @@ def opening_flows(film: ConservedFilm, state: ConservedState) -> tuple[Array, Ar
     for flow, here, there in (
         (around, cells.opening, after),
         (through[:, 1:-1], cells.opening[:, :-1], onward),
+        (np.maximum(through[:, -1:], 0.0), cells.opening[:, -1:], np.full_like(after[:, -1:], FILM)),
     ):
         for sign, own, other in ((1.0, here, there), (-1.0, there, here)):
             edge = (own != FILM) & (other != own)
             out = sign * flow[edge]
             leaving += np.bincount(own[edge], np.maximum(out, 0.0), len(leaving))
             arriving += np.bincount(own[edge], np.maximum(-out, 0.0), len(arriving))
-    open_end = cells.opening[:, -1] != FILM
-    ends = np.maximum(through[open_end, -1], 0.0)
-    leaving += np.bincount(cells.opening[open_end, -1], ends, len(leaving))
     if not cells.grooved:
         return leaving, arriving
-    parts = (np.maximum(sign * through[:, 0], 0.0).sum() for sign in (1.0, -1.0))
-    both = (np.append(flow, part) for flow, part in zip((leaving, arriving), parts, strict=True))
-    return next(both), next(both)
+    given, taken = (np.maximum(sign * through[:, 0], 0.0).sum() for sign in (1.0, -1.0))
+    return np.append(leaving, given), np.append(arriving, taken)
 
 
 def opening_pressure(film: ConservedFilm, state: ConservedState) -> Array:

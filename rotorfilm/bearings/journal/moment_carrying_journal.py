@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from collections.abc import Sequence
 from ctypes import addressof, byref, c_size_t
 from dataclasses import dataclass, replace
@@ -83,9 +84,9 @@ class TiltedJournal:
         """Place of the bush, shape (4,) [m], [rad]."""
         return np.zeros(4)
 
+    @abstractmethod
     def least(self, place: Array) -> float:
         """Return the least film over the clearance at one place (e, tau)."""
-        raise NotImplementedError
 
     @property
     def arm(self) -> float:

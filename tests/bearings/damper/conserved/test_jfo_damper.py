@@ -342,7 +342,7 @@ def test_a_film_without_oil_is_refused():
         DamperSupply(cavitation_pressure=5.0, submerged=True)
     with pytest.raises(InputError, match=r"circumferential_groove must be below the length 0.05, got 0.05"):
         damper(replace(grooved(), circumferential_groove=0.05))
-    with pytest.raises(InputError, match=r"diameter of a hole must be below .* got 0.06"):
+    with pytest.raises(InputError, match=r"diameter of a feed hole must be below .* got 0.06"):
         damper(DamperSupply(supply_pressure=1e5, feed_holes=(FeedHole(center=0.0, diameter=0.06),)))
 
 
