@@ -109,7 +109,7 @@ LAST_NUMBER = {
     "job_tolerances.py": pytest.approx(1.7 / 3.0**0.5, rel=0.05),
     # as first computed
     "job_foreign_bearing.py": pytest.approx(6585.9, rel=1e-3),
-    # two importers of one FMU
+    # each film carries half of the weight
     "job_machine_fmu.py": pytest.approx(1.0, abs=1e-5),
     "job_absent_elements.py": pytest.approx(4.0, abs=0.1),
     # the clearance of the machine, within the noise of the sensors

@@ -329,7 +329,7 @@ def _shares(
     for node, part in nodes.items():
         require_positive(f"nodes[{node}]", part)
     if not nodes:
-        raise InputError("nodes must hold at least one node, got none")
+        raise InputError("nodes must name at least one node, got none")
     total = sum(nodes.values())
     return {node: part / total for node, part in nodes.items()}
 
@@ -681,7 +681,7 @@ class CrossCoupledRotor:
             whirl = self._whirl(whirl.cross_coupling + step, ahead, whirl.shape)
             if step == left:
                 return whirl._replace(cross_coupling=cross_coupling)
-        raise ConvergenceError(f"whirl must be followed to {cross_coupling:.6g} N/m, and was not")
+        raise ConvergenceError(f"whirl could not be followed to a coupling of {cross_coupling:.6g} N/m")
 
     def _whirl(self, cross_coupling: float, value: complex, shape: np.ndarray) -> ForwardWhirl:
         """Return the whirl under a cross-coupling next to a value and a shape."""

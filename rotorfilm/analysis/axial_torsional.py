@@ -101,7 +101,7 @@ class AxialTorsionalModes(Readable):
 
     @property
     def damping_ratio(self) -> Array:
-        """-Re / |eigenvalue| [1], 0 for the motion as a whole."""
+        """Damping ratio, -Re / |eigenvalue| [1]; 0 for rigid-body motion."""
         size = np.abs(self.eigenvalues)
         return np.asarray(-self.eigenvalues.real / np.where(size > 0.0, size, 1.0))
 

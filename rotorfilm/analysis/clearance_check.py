@@ -68,7 +68,7 @@ class ClearanceCheck(Drawable):
     _tabled = ("names", "vibration", "at_speed", "clearance")
 
     def to_table(self) -> ResultTable:
-        """Return a row for each place."""
+        """Return a table with one row for each place of the check."""
         columns = (
             Column("place", "", np.array(self.names, dtype=object)),
             Column("vibration", "m", self.vibration, "scaled vibration, peak-to-peak"),

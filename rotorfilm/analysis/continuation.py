@@ -549,7 +549,7 @@ class HopfPoint(Readable):
 
     @property
     def parameter_curvature(self) -> float:
-        """(parameter - onset) / a^2 of small orbits with the amplitude a."""
+        """Curvature of the branch: (parameter - onset) / a^2 for small orbits of the amplitude a."""
         return -self.growth_curvature / self.crossing
 
 

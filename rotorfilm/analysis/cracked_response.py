@@ -41,12 +41,12 @@ class CrackedResponse(Readable):
 
     @property
     def stable(self) -> bool:
-        """Whether disturbances die out."""
+        """Whether small disturbances of the motion decay."""
         return bool(abs(self.multipliers[0]) < 1.0)
 
     @property
     def growth_rate(self) -> float:
-        """Rate at which the largest disturbance grows [1/s], negative where it dies out."""
+        """Growth rate of the disturbance that grows fastest [1/s]; negative if all disturbances decay."""
         return float(np.log(abs(self.multipliers[0])) * abs(self.speed) / (2.0 * np.pi))
 
 

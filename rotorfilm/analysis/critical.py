@@ -169,7 +169,7 @@ class _Search:
             jumps = [jump for step in self.unproven for jump in self._jumps(*step)]
             cause = "; ".join(jumps[:3]) or "whirls change too fast with the speed there"
         return (
-            "the list of critical speeds must be proven complete, and was not between "
+            "the list of critical speeds could not be proven complete between "
             f"{where} rad/s: {cause}. The {count} that were found are the partial result; take closer speeds "
             "there, or leave the interval out"
         )
@@ -253,7 +253,7 @@ class _Search:
                 return None
             change = min(max(wanted, limits[0]), limits[1]) - turn
             turn, value = turn + change, value + rate * change
-        raise ConvergenceError(f"critical speed near {turn:.6g} rad/s must be found, and was not")
+        raise ConvergenceError(f"the critical speed near {turn:.6g} rad/s was not found")
 
 
 # The whirls of a rotor in the middle of a step of speeds, and how the step changes them.
@@ -573,8 +573,8 @@ def require_all_undamped(
     wanted = sum(counts) if low.speed * high.speed < 0.0 else abs(counts[1] - counts[0])
     if found != wanted:
         raise ConvergenceError(
-            f"all critical speeds between {low.speed:.6g} and {high.speed:.6g} rad/s must be found, and "
-            f"{found} were of {wanted}"
+            f"only {found} of {wanted} critical speeds were found between {low.speed:.6g} and "
+            f"{high.speed:.6g} rad/s"
         )
 
 

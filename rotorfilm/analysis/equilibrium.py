@@ -760,7 +760,7 @@ class FieldFilm(Protocol):
         """Temperature of the fresh oil [K]."""
 
     def cold(self) -> Any:
-        """Return the film of fresh oil."""
+        """Return the film at the viscosity of fresh oil."""
 
     def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> Any:
         """Return the film of the viscosity at a temperature, as it is fed at a place."""

@@ -146,9 +146,7 @@ def require_all_growing(
         return
     count = rotor_growing(structure, at, values)
     if count != growing:
-        raise ConvergenceError(
-            f"all exponents that grow at {speed:.6g} rad/s must be found, and {growing} were of {count}"
-        )
+        raise ConvergenceError(f"only {growing} of {count} growing exponents were found at {speed:.6g} rad/s")
 
 
 def _frequencies(reference: np.ndarray, found: np.ndarray, speed: float) -> Array:
@@ -219,8 +217,8 @@ def counted_exponents(
         if known == growing:
             return np.array(found), growing
     raise ConvergenceError(
-        f"all {growing} growing exponents of a mass of {mass:.6g} kg on the film must be found, and "
-        f"{len(found)} exponents were: {found}"
+        f"only {len(found)} of {growing} growing exponents of a mass of {mass:.6g} kg on the film were "
+        f"found: {found}"
     )
 
 

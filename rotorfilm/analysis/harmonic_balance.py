@@ -856,7 +856,7 @@ class TurnEquations:
             places = self._inside(places, moved)
             if float(np.abs(moved).max()) < TURN_NEAR * self.clearance:
                 return self.turn(places)
-        raise ConvergenceError(f"the orbit must be found within {TURN_STEPS} steps, and was not", None)
+        raise ConvergenceError(f"the orbit was not found within {TURN_STEPS} steps", None)
 
     def _inside(self, places: Array, moved: Array) -> Array:
         """Return the places after the longest part of a step that leaves a film everywhere."""

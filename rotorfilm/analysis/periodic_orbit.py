@@ -103,7 +103,7 @@ class PeriodicOrbit(Drawable):
 
     @property
     def harmonics(self) -> int:
-        """Number of harmonics of the series."""
+        """Number of harmonics in the Fourier series of the orbit."""
         return self.series.shape[-1] // 2
 
     def position(self, time: ArrayLike) -> Array:
@@ -121,7 +121,7 @@ class PeriodicOrbit(Drawable):
 
     @property
     def amplitude(self) -> float:
-        """Largest distance of a journal from its mean position / clearance [1]."""
+        """Largest distance of a journal from its mean position, in clearances [1]."""
         position = self.position(self.period * np.arange(256) / 256) - self.series[:, :, :1]
         return float((np.hypot(position[:, 0], position[:, 1]) / self.lengths[:, None]).max())
 
@@ -134,7 +134,7 @@ class PeriodicOrbit(Drawable):
 
     @property
     def stable(self) -> bool:
-        """Whether a small disturbance dies out; InputError where the multipliers were not computed."""
+        """Whether small disturbances decay; raises InputError if the multipliers were not computed."""
         if not self.multipliers.size:
             raise InputError("stability must be True for an orbit that knows whether it is stable")
         return bool(np.all(np.abs(self.free_multipliers) < 1.0))

@@ -267,7 +267,7 @@ def whirl_near(
         found, right, left = inverse_steps(system_at(found), found * (1.0 + BESIDE), right, left, 1)[-1]
         if abs(found - before) < (CONVERGED if step < PATIENCE else ROUNDED) * abs(found):
             return found, right, left
-    raise ConvergenceError(f"whirl near {value:.6g} rad/s must be found by inverse iteration, and was not")
+    raise ConvergenceError(f"the whirl near {value:.6g} rad/s was not found by inverse iteration")
 
 
 # How large the error of a response in some of the shapes of a rotor is, at many speeds.

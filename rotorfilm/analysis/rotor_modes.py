@@ -589,7 +589,7 @@ class CriticalSpeed(Readable):
 
     @property
     def whirl(self) -> str:
-        """Whether it is forward, backward or mixed."""
+        """The whirl at this speed: forward, backward or mixed."""
         return str(senses(self.direction))
 
 

@@ -180,7 +180,7 @@ def secant_speed(
             return FoundSpeed(speed, slope, solution)
         last, speed = (speed, lead), speed + step
     raise ConvergenceError(
-        f"the speed must be found within {most} steps by secants, and was not near {speed:.6g} rad/s"
+        f"the speed near {speed:.6g} rad/s was not found within {most} steps of the secant method"
     )
 
 
@@ -286,4 +286,4 @@ def whirl_of(
         if count > rotor_matrices.PATIENCE and abs(step) < rotor_matrices.ROUNDED * speed:
             return whirl, count
         speed += float(np.clip(step, -0.1 * speed, 0.1 * speed))
-    raise ConvergenceError(f"speed near {speed:.6g} rad/s must be found by Newton's method, and was not")
+    raise ConvergenceError(f"the speed near {speed:.6g} rad/s was not found by Newton's method")

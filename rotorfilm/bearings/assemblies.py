@@ -288,7 +288,7 @@ class Parallel(SharedReaction):
 
     @property
     def outputs(self) -> tuple[Signal, ...]:
-        """Signals of the forces on the shaft, with the largest nominal values; the added mass."""
+        """Signals of the forces on the shaft, with the largest nominal values, and of the added mass."""
         every = ((not _is_open(one), s.nominal, s) for one in self.reactions for s in one.outputs)
         largest = {s.name: s for *_, s in sorted(every, key=lambda row: row[:2])}
         return (*(largest[name] for name in force_names(self.freedoms)), *mass_outputs(self))
@@ -300,18 +300,18 @@ class Parallel(SharedReaction):
 
     @property
     def states_rest(self) -> bool:
-        """Whether one of them has states that rest with the shaft."""
+        """Whether one of the reactions has states that reach an equilibrium when the shaft rests."""
         return any(map(states_rest, self.reactions))
 
     @property
     def initial_state(self) -> Array:
-        """The states of all at t = 0."""
+        """The states of all reactions at t = 0."""
         moving: Any = [one for one in self.reactions if one.states]
         return np.concatenate([np.zeros(0), *(one.initial_state for one in moving)])
 
     @property
     def carries_load(self) -> bool:
-        """Whether one of them is a bearing, not a seal."""
+        """Whether at least one of the reactions is a bearing and not a seal."""
         return any(map(carries_load, self.reactions))
 
     def minimum_film(self, position: ArrayLike) -> Array:
@@ -395,7 +395,7 @@ class Parallel(SharedReaction):
         return total
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
-        """Return `force` for inner loops; states are held where they begin."""
+        """Return `force` for inner loops; the states keep their initial values."""
         total = np.tensordot(self._springs[:, :-1], np.concatenate([position, velocity]), 1)
         for one, rows, _, _ in self._varying:
             if len(rows) == len(total):

@@ -276,7 +276,7 @@ class TabulatedBearing(Plottable, Tabled, LinearReaction):
         return without_overflow(law, *broadcast_state(position, velocity, speed, len(self.freedoms)))
 
     def native(self) -> NativeSpec | None:
-        """Return the kernel, with all numbers as parameters; None beyond x, y, and for a subclass."""
+        """Return the kernel with the table as parameters; None for other freedoms and for a subclass."""
         if type(self) is not TabulatedBearing or self.freedoms != PLANAR:
             return None
         columns = {"speeds": np.asarray(self.speeds)}

@@ -298,7 +298,7 @@ class FrequencyDependentReaction:
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
-        """Signals of the places of its freedoms, of their rates, and the speed."""
+        """Signals of the displacements along its freedoms, of their rates, and of the speed."""
         fastest = float(np.abs(self._known).max(initial=0.0)) or NOMINAL_SPEED
         return journal_inputs(NOMINAL_LENGTH, fastest, self.freedoms)
 
@@ -382,7 +382,7 @@ class FrequencyDependentReaction:
 
     @property
     def has_inertia(self) -> bool:
-        """Whether it adds a mass to the rotor."""
+        """Whether the reaction adds a mass to the rotor."""
         return bool(self._mass.any())
 
     def mass(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:

@@ -92,7 +92,7 @@ class OwnReaction(StaticReaction):
 
     @property
     def component(self) -> str:
-        """What its FMU is called."""
+        """Name of the component in its FMU."""
         return self.name
 
     def prepare(self) -> Force:
@@ -108,7 +108,7 @@ class OwnReaction(StaticReaction):
 
     @property
     def arm(self) -> float:
-        """The clearance over the largest angle [m]."""
+        """Length that converts angles to displacements: clearance / largest angle [m]."""
         return self.clearance / self.largest_angle
 
     def require_film(self, position: Array) -> None:

@@ -116,13 +116,13 @@ class RubRing(StaticReaction):
         return FilmCall.of_numbers("rf_rub_at", self.numbers) if type(self) is RubRing else None
 
     def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return penetration / gap, shape (1,): contact begins and ends where it changes sign."""
+        """Return penetration / gap, shape (1,); contact begins and ends where it changes sign."""
         values = input_vector(u)
         away = values[:2] - np.array(self.ring_center)
         return np.array([math.hypot(*away) / self.gap - 1.0])
 
     def contact(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> RubContact:
-        """Return depth, forces and slip of a rotor; the arguments are those of `force`."""
+        """Return depth, forces and sliding velocity of a contact; the arguments are those of `force`."""
         q, v, omega = broadcast_state(position, velocity, speed)
         distance, _, _, sinking, sliding = self._frame(q, v)
         slip, normal = sliding + self.radius * omega, self._normal(distance, sinking)

@@ -273,7 +273,7 @@ class AnnularSeal(InertialModel):
         return slopes
 
     def linear_system(self, *speeds: float) -> Linearization | None:
-        """Return the force over places and rates where the speed is constant; see `core.port.Reaction`."""
+        """Return the force over places and rates at constant speed, as matrices; see `core.port`."""
         if type(self) is not AnnularSeal or len(set(speeds)) > 1:
             return None
         return static_linearization(self.jacobian(np.zeros(2), np.zeros(2), speeds[0])[:, :4])
@@ -325,7 +325,8 @@ class AnnularSeal(InertialModel):
         if self.friction == HirsFriction() and not low <= reynolds <= high:
             warn_user(
                 f"Reynolds number must be within {low:g} to {high:g} for the friction of Blasius, got "
-                f"{reynolds:.4g} at rest: give a HirsFriction, of laminar flow coefficient=24, exponent=-1"
+                f"{reynolds:.4g} at rest: give another HirsFriction, for laminar flow coefficient=24 and "
+                "exponent=-1"
             )
 
 

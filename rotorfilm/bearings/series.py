@@ -138,7 +138,7 @@ class Series:
 
     @property
     def freedoms(self) -> tuple[str, ...]:
-        """Those of the inner reaction."""
+        """The same as those of the inner reaction."""
         return freedoms_of(self.inner)
 
     @property
@@ -157,7 +157,7 @@ class Series:
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
-        """Those of the inner reaction."""
+        """The same as those of the inner reaction."""
         return self.inner.inputs
 
     @property
@@ -243,7 +243,7 @@ class Series:
         return [PartAtRest(self.inner, inner, speed), PartAtRest(self.outer, outer, 0.0)]
 
     def rest_place(self, load: Sequence[float], speed: float) -> Array | None:
-        """Return a first guess of the equilibrium: the inner reaction on the outer one as springs."""
+        """Return a first guess of the equilibrium, with the outer reaction replaced by springs."""
         push = np.array(load)
         place = told_place(self.inner, push, speed)
         if place is None:
@@ -270,7 +270,7 @@ class Series:
         return HoldingStiffness(self.rest_linearization(position, speed))
 
     def rest_linearization(self, position: ArrayLike, speed: float) -> Linearization:
-        """Return the derivatives with all states at rest; see `core.port`."""
+        """Return the derivatives with all states in equilibrium; see `core.port`."""
         q = require_finite("position", position)
         inner, outer = self._apart(q, self._resting_body(q, speed))
         felt = np.concatenate([outer, np.zeros(len(outer) + 1)])

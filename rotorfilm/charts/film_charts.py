@@ -283,7 +283,7 @@ def _pressure_panel(state: HeatedState) -> PicturePanel:
 def _across_panel(state: HeatedState) -> PicturePanel:
     """Describe the temperature across a film in the middle of the bearing."""
     if state.oil_temperature.ndim != 3:
-        raise InputError("state must be that of a film with layers, as of LayeredTemperature(), got a mean")
+        raise InputError("state must be that of a film with LayeredTemperature(...), got a mean")
     order = np.argsort(state.angle)
     angle, T = state.angle[order], state.oil_temperature[order, 0] - CELSIUS
     gap = 1e6 * _gap(state, angle)

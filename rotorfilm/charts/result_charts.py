@@ -34,9 +34,14 @@ def picture_of(result: Any, kind: str = "") -> Picture:
     Raises
     ------
     InputError
-        If there is no such picture; the message lists those that there are.
+        If there is no picture of this kind or of this object; the message lists those that there are.
     """
-    name = next(one.__name__ for one in type(result).__mro__ if one.__name__ in PICTURES)
+    name = next((one.__name__ for one in type(result).__mro__ if one.__name__ in PICTURES), "")
+    if not name:
+        raise InputError(
+            f"result must be one of {', '.join(PICTURES)}, got a {type(result).__name__}; functions such as "
+            "charts.plot_unbalance_response draw other objects"
+        )
     kinds = PICTURES[name]
     if kind and kind not in kinds:
         raise InputError(

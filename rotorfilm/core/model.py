@@ -135,7 +135,7 @@ class Stepped(Protocol):
         """Return the output of a state, shape (n_outputs,)."""
 
     def pack(self, state: Any) -> bytes:
-        """Return a state as bytes, to the last bit."""
+        """Return a state as bytes, from which it is restored exactly."""
 
     def unpack(self, content: bytes) -> Any:
         """Return the state in bytes that `pack` made.

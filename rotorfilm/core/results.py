@@ -285,7 +285,7 @@ class FrequencyDependentCoefficients(ReducedCoefficients):
 
     @property
     def dynamic_stiffness(self) -> Any:
-        """K(s) and dK/ds, as a function of s [1/s]."""
+        """The function that returns K(s) and dK/ds at an exponent s [1/s]."""
         return vars(self)["_motion"]
 
     def near(self, s: complex) -> Coefficients:
@@ -441,7 +441,7 @@ class CircularOrbit(Readable):
 
     @property
     def stable(self) -> bool:
-        """Whether small disturbances die out."""
+        """Whether small disturbances of the orbit decay."""
         return self.growth_rate < 0.0
 
 

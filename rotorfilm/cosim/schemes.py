@@ -150,11 +150,11 @@ class Scheme(Hashable, Protocol):
 
     @property
     def label(self) -> str:
-        """Name of the scheme in print."""
+        """Name of the scheme in printed results."""
 
     @property
     def needs(self) -> Needs:
-        """Requirements on the partners."""
+        """What the scheme requires of the partners."""
 
     def step(self, bench: PartnerInterface, history: Sequence[Sample], t: float, dt: float) -> Sample:
         """Advance from t to t + dt [s], or less, and return the exchanged signals.
@@ -234,7 +234,7 @@ class _Extrapolating:
 
     @property
     def label(self) -> str:
-        """Name of the scheme in print."""
+        """Name of the scheme in printed results."""
         return f"{self._name} {self.degree}"
 
     @property
@@ -563,21 +563,21 @@ class Adaptive:
 
     @property
     def order(self) -> int:
-        """Order of convergence in the tolerance's step."""
+        """Order of convergence in the macro step that the tolerance chooses."""
         return self.scheme.order
 
     @property
     def label(self) -> str:
-        """Name of the scheme in print."""
+        """Name of the scheme in printed results."""
         return f"adaptive {self.scheme.label}"
 
     @property
     def needs(self) -> Needs:
-        """Requirements of the scheme, and rollback."""
+        """What the scheme requires of the partners; saved states (rollback) are one of them."""
         return self.scheme.needs._replace(derivatives=True, rollback=True)
 
     def step(self, bench: PartnerInterface, history: Sequence[Sample], t: float, dt: float) -> Sample:
-        """Advance from t by dt or less; the sample contains the time reached."""
+        """Advance from the time t by dt or less; the returned sample has the time that was reached."""
         shortest = GIVE_UP * dt
         dt = min(dt, self._proposed(history, dt))
         while True:

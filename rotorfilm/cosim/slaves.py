@@ -100,8 +100,8 @@ def require_planar(inputs: Sequence[str], outputs: Sequence[str]) -> None:
     known = [name for name in (*inputs, *outputs) if name in (*further, *signals.force_names(further))]
     if known:
         raise InputError(
-            f"film must react to x and y alone in a co-simulation, got the signals {known}: simulate, and "
-            "mount(rotor, ...) in one FMU, take other freedoms"
+            f"film must react to x and y alone in a co-simulation, got the signals {known}: simulate and "
+            "mount(rotor, ...) take other freedoms"
         )
 
 

@@ -144,7 +144,7 @@ class Measurements:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the quantities."""
+        """Names of the measured quantities."""
         return tuple(self._found)
 
     @property

@@ -420,7 +420,7 @@ class FollowedFilm:
             smallest = lowest(run.time, getattr(run, self.films.row.field))
             self.runs[key] = smallest, lowest(run.time, run.delta)
         if math.isnan(self.runs[key][0]):
-            raise ConvergenceError(f"a motion must be solvable on {cells} x {cells} cells, got none before")
+            raise ConvergenceError(f"no motion was found on {cells} x {cells} cells")
         return self.runs[key]
 
     def step_error(self, steps: int, work: dict[WorkUnit, int]) -> float:

@@ -235,7 +235,7 @@ class BaseExcitedRotor(TimeExcitedRotor):
 
     @property
     def rows(self) -> Array:  # type: ignore[override]
-        """Times and acceleration of the ground."""
+        """Times [s] and accelerations [m/s2] of the ground, row by row."""
         return self.base.rows
 
     @cached_property

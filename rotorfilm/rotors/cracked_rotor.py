@@ -160,7 +160,7 @@ class MayesDaviesBreathing:
     """
 
     def share(self, angle: float) -> float:
-        """Return the share [1] at an angle [rad]."""
+        """Return the share of the crack that is open [1] at an angle [rad]."""
         return 0.5 * (1.0 + math.cos(angle))
 
 
@@ -190,7 +190,7 @@ class GaschHinge:
             raise InputError(f"edge must not exceed a quarter of a turn, got {self.edge!r}")
 
     def share(self, angle: float) -> float:
-        """Return the share [1] at an angle [rad]."""
+        """Return the share of the crack that is open [1] at an angle [rad]."""
         away = abs(math.remainder(angle, 2.0 * math.pi)) - 0.5 * math.pi
         place = min(max(0.5 * (1.0 - away / self.edge), 0.0), 1.0)
         return place * place * (3.0 - 2.0 * place)
@@ -201,7 +201,7 @@ class OpenCrack:
     """A notch that never closes: an asymmetric shaft, like a rotor with slots or a keyway."""
 
     def share(self, angle: float) -> float:
-        """Return 1 at every angle [rad]."""
+        """Return the open share of the notch, which is 1 at every angle [rad]."""
         return 1.0
 
 
@@ -255,7 +255,7 @@ class CrackedRotor(AroundStructure):
 
     @property
     def profile(self) -> SpeedProfile:
-        """The speed as a profile."""
+        """The speed of the rotor as a `SpeedProfile`."""
         return self.rotor.profile
 
     @cached_property
@@ -283,7 +283,7 @@ class CrackedRotor(AroundStructure):
         return self.lost_at(self.profile.angle(t))
 
     def lost_at(self, turned: float) -> Array:
-        """Return the same when the shaft has turned by an angle [rad] since t = 0."""
+        """Return the loss of stiffness after the shaft has turned by an angle [rad] since t = 0."""
         angle = turned + self.crack.crack_angle
         share = self.breathing.share(angle - self._open_at)
         turn = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])

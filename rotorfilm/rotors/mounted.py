@@ -255,7 +255,7 @@ class MountedRotor(AroundRotor):
         return self.joined(t, whole, u, parts)
 
     def joined(self, t: float, whole: Array, u: ArrayLike, parts: Sequence[Linearization]) -> Linearization:
-        """Return the derivatives of rotor and bearings for given derivatives of the bearings."""
+        """Return the derivatives of rotor and bearings together, for given derivatives of the bearings."""
         own, sensed = self._sensed(t, whole, u)[1:]
         inputs = self._inputs(self._forces(t, own, self._pushes(t, whole, sensed), u), u)
         rotor, masses = self.rotor.linearization(t, own, inputs), None

@@ -150,12 +150,12 @@ class SteadyRotor(AroundRotor):
         return np.concatenate([self.rotor.initial_state, [1.0, 0.0, 1.0]])
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return A x + B u; t is not used."""
+        """Return the rates of the states, A x + B u; the time t is not used."""
         A, B, _, _ = self._matrices
         return A @ np.asarray(x, dtype=float) + B @ np.asarray(u, dtype=float)
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return C x; t and u are not used."""
+        """Return the outputs, C x; the time t and the forces u are not used."""
         return self._matrices.C @ np.asarray(x, dtype=float)
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:

@@ -115,7 +115,7 @@ class RigidRotor(Turning):
 
     @property
     def outputs(self) -> tuple[Signal, ...]:
-        """Signals x, y, vx, vy, speed: what a film needs."""
+        """Signals x, y, vx, vy and speed, which are the inputs of a film."""
         return journal_inputs(NOMINAL_LENGTH, self.nominal_speed)
 
     @property
@@ -143,7 +143,7 @@ class RigidRotor(Turning):
         return np.concatenate([np.asarray(x, dtype=float), [self.profile.speed(t)]])
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
-        """Return the exact derivatives, the same at every (t, x, u)."""
+        """Return the exact derivatives, which are the same at every time, state and input."""
         A, B = np.zeros((4, 4)), np.zeros((4, 2))
         A[:2, 2:] = np.eye(2)
         B[2:] = np.eye(2) / self.mass

@@ -46,7 +46,7 @@ class ElasticMaterial:
 
     @property
     def poisson_ratio(self) -> float:
-        """E / (2 G) - 1 [1]."""
+        """Poisson's ratio, E / (2 G) - 1 [1]."""
         return self.young_modulus / (2.0 * self.shear_modulus) - 1.0
 
 
@@ -140,7 +140,7 @@ class ShaftElement:
         )
 
     def section(self) -> Section:
-        """Return stiffness and inertia of the cross section, for a cone along its length."""
+        """Return stiffness and inertia of the cross section; for a cone they vary along its length."""
         places = POINTS if self.tapered else 0.0
         outer, inner = (start + (end - start) * places for start, end in self._ends)
         kappa = self.shear_coefficient
@@ -354,7 +354,7 @@ class ClassicalBeam:
 
     @property
     def internal(self) -> int:
-        """No internal degrees of freedom."""
+        """Number of internal degrees of freedom, which is 0."""
         return 0
 
     def shapes(self, length: float, shear_ratio: float) -> list[tuple[Polynomial, Polynomial]]:
@@ -391,11 +391,11 @@ class FourthOrderBeam:
 
     @property
     def internal(self) -> int:
-        """Two internal degrees of freedom, for a uniform load and a uniform moment."""
+        """Number of internal degrees of freedom: two, for a uniform load and a uniform moment."""
         return 2
 
     def shapes(self, length: float, shear_ratio: float) -> list[tuple[Polynomial, Polynomial]]:
-        """Return the shapes of `ClassicalBeam` and the two of the clamped element."""
+        """Return the shapes of `ClassicalBeam`, and two further shapes of an element with clamped ends."""
         p = shear_ratio
         even_load = Polynomial((0.0, p, 1.0 - p, -2.0, 1.0))
         sheared = p * Polynomial((1.0, -2.0))

@@ -270,7 +270,7 @@ class StaticContactFilms:
             state = self.contact(cells, inlet).stationary(load)
             self.known[key] = float(getattr(state, self.row.field))
         if math.isnan(self.known[key]):
-            raise ConvergenceError(f"a contact must be solvable on {cells} x {cells} cells, got none before")
+            raise ConvergenceError(f"no contact was found on {cells} x {cells} cells")
         return self.known[key]
 
     def lacking(self, cells: int, fine: int, work: dict[WorkUnit, int], load: float) -> float:

@@ -434,7 +434,7 @@ def with_pressures(films: Sequence[FilmCandidate], wanted: str) -> tuple[Any, ..
     known = tuple(film for one in films if (film := one.with_pressure()) is not None)
     if known:
         return known
-    raise InputError(f"film must be a law with a pressure for {wanted}, as reynolds, got {films[0].name}")
+    raise InputError(f"film must have a pressure for {wanted}, such as reynolds, got {films[0].name}")
 
 
 def has_pressure(bearing: Any) -> bool:

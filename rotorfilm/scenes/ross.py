@@ -41,6 +41,13 @@ MODAL = ("modal_damping_ratio", "default_damping_ratio")
 PRESENT = ("rotary_inertia", "gyroscopic")
 """Effects that a ShaftRotor always has."""
 
+ANISOTROPIC = (
+    "a part that turns and is not the same in all directions has coefficients that vary with the angle of "
+    "the shaft, and those of a ShaftRotor are constant; give it the mean of both directions, or describe an "
+    "anisotropic shaft as a CrackedRotor with an OpenCrack"
+)
+"""Why read_ross refuses such parts, and how to go on."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class RossRotor:
@@ -74,8 +81,9 @@ def read_ross(path: str | Path, *, speed: float | rotors.SpeedProfile = 0.0) -> 
     ------
     InputError
         If the file is no such file, or has something that a ShaftRotor cannot represent: modal damping, no
-        rotary inertia, masses of bearings over speed, couplings that damp, supports over speed, damping by
-        the stiffness of an axial force or a torque.
+        rotary inertia, masses of bearings over speed, couplings that damp, couplings and disks that are
+        anisotropic, point masses with two masses, supports over speed, damping by the stiffness of an axial
+        force or a torque.
 
     Notes
     -----
@@ -198,6 +206,13 @@ def _of(tables: Mapping[str, dict[str, Any]], kind: str) -> dict[str, dict[str, 
 
 def _disks(disks: Mapping[str, RossTable], couplings: Mapping[str, RossTable]) -> tuple[rotors.Disk, ...]:
     """Return the disks, and both sides of each coupling as disks."""
+    for name, table in disks.items():
+        others = [key for key in table if key.startswith("I") and key not in ("Id", "Ip")]
+        if others or np.ndim(table.get("Id", 0.0)):
+            key = others[0] if others else "Id"
+            raise InputError(
+                f"Id and Ip must be numbers and alone, got {key} = {table[key]!r} in {name!r}: {ANISOTROPIC}"
+            )
     sides = ((side, f"_{end}", t) for t in couplings.values() for side, end in enumerate("lr"))
     return tuple(
         rotors.Disk(
@@ -212,8 +227,9 @@ def _disks(disks: Mapping[str, RossTable], couplings: Mapping[str, RossTable]) -
 
 def _coupling(name: str, table: RossTable) -> rotors.Coupling:
     for kind in ("kt", "kr"):
-        if table[f"{kind}_x"] != table[f"{kind}_y"]:
-            raise InputError(f"{kind}_x must be {kind}_y, got {table[f'{kind}_x']!r} in {name!r}")
+        x, y = table[f"{kind}_x"], table[f"{kind}_y"]
+        if x != y:
+            raise InputError(f"{kind}_x must be {kind}_y, got {x!r} and {y!r} in {name!r}: {ANISOTROPIC}")
     damped = [key for key in ("ct_x", "ct_y", "cr_x", "cr_y") if table.get(key)]
     if damped:
         raise InputError(f"{damped[0]} must be 0, got {table[damped[0]]!r} in {name!r}")
@@ -291,7 +307,10 @@ def _supports(
                 f"n must be beyond the shaft's nodes for a point mass, got {node!r} in {mass_name!r}"
             )
         if mass["mx"] != mass["my"]:
-            raise InputError(f"mx must be my, got {mass['mx']!r} and {mass['my']!r} in {mass_name!r}")
+            raise InputError(
+                f"mx must be my, got {mass['mx']!r} and {mass['my']!r} in {mass_name!r}: a Support has one "
+                "mass; put the bearing into a Series whose outer reaction has the difference as an added mass"
+            )
         below = [(name, table) for name, table in bearings.items() if table.get("n") == node]
         if len(below) != 1:
             raise InputError(

@@ -376,12 +376,12 @@ class Scene:
 
     @property
     def macro_step(self) -> float:
-        """Time between two exchanges of signals in a co-simulation [s]; the shaft must turn."""
+        """Time between two exchanges of signals in a co-simulation [s]; the speed must not be 0."""
         return self.time_of(self.cosimulation.macro_angle)
 
     @property
     def duration(self) -> float:
-        """Length of a run [s]; where it is given in turns, the shaft must turn."""
+        """Length of a run [s]; if it is given in turns, the speed must not be 0."""
         if self._operation.duration is not None:
             return self._operation.duration
         return self.time_of(2.0 * math.pi * self.cosimulation.revolutions)

@@ -82,7 +82,7 @@ def test_the_gap_is_drawn_across(layered):
 def test_a_film_with_a_mean_temperature_has_no_picture_across():
     state = state_of(MeanTemperature())
     assert len(plot_heated_film(state).panels) == 2
-    with pytest.raises(InputError, match="state must be that of a film with layers"):
+    with pytest.raises(InputError, match="state must be that of a film with LayeredTemperature"):
         plot_temperature_across(state)
 
 

@@ -356,3 +356,10 @@ def test_a_deflected_shape_is_the_response_of_its_nodes():
     assert set(picture_of(found, "orbits").panels[0].curves) == {"shaft", "forward", "bearing"}
     with pytest.raises(rf.InputError, match="rotor must have an unbalance"):
         rf.analysis.deflected_shape(replace(rotor, unbalances=()), SPRINGS, 150.0)
+
+
+def test_an_object_without_a_picture_is_refused_with_those_that_have_one():
+    with pytest.raises(
+        rf.InputError, match=r"^result must be one of Trajectory, .*, got a dict; functions such as"
+    ):
+        picture_of({})

@@ -99,9 +99,7 @@ def test_a_journal_that_conserves_its_oil_has_the_pressure_of_that_film():
 
 
 def test_films_without_a_pressure_say_so():
-    with pytest.raises(
-        InputError, match=r"film must be a law with a pressure for maximum_pressure, .*got MapFilm"
-    ):
+    with pytest.raises(InputError, match=r"film must have a pressure for maximum_pressure, .*got MapFilm"):
         scene({"journal": {**JOURNAL, "film": {"name": "map"}}}).ask()
 
 

@@ -151,7 +151,18 @@ def test_shaft_without_shear(tmp_path):
             [element(0, 0).replace("cowper", "hutchinson")],
             "shear_method_calc must be 'cowper', got 'hutchinson'",
         ),
-        ([element(0, 0), COUPLING.replace("kt_y = 1", "kt_y = 2")], "kt_x must be kt_y, got 1.0"),
+        (
+            [element(0, 0), COUPLING.replace("kt_y = 1", "kt_y = 2")],
+            "kt_x must be kt_y, got 1.0 and 2.0 in 'CouplingElement_C': a part that turns",
+        ),
+        (
+            [element(0, 0), disk(0, 1, 0.2) + "Iyy = 0.1\n"],
+            "Id and Ip must be numbers and alone, got Iyy = 0.1 in",
+        ),
+        (
+            [element(0, 0), disk(0, 1, 0.2).replace("Id = ", "Id = [0.1, 0.2] # ")],
+            r"got Id = \[0.1, 0.2\] in 'DiskElement_Disk 0'",
+        ),
         ([element(0, 0), COUPLING + "cr_y = 3.0\n"], "cr_y must be 0, got 3.0"),
         (
             [element(0, 0), element(1, 1), COUPLING],
@@ -161,7 +172,10 @@ def test_shaft_without_shear(tmp_path):
             [element(0, 0), LINKED, '["PointMass_M"]\nn = 1\nmx = 1.0\nmy = 1.0\n'],
             "n must be beyond the shaft's nodes",
         ),
-        ([element(0, 0), LINKED, MASS.replace("my = 1", "my = 2")], "mx must be my, got 1.0 and 2.0"),
+        (
+            [element(0, 0), LINKED, MASS.replace("my = 1", "my = 2")],
+            "mx must be my, got 1.0 and 2.0 .*: a Support has",
+        ),
         (
             [element(0, 0), LINKED, MASS],
             "n of one bearing to the ground must be that of 'PointMass_M', got 0",

@@ -160,16 +160,16 @@ class Friction:
         require_each(self, require_number, "f0", "f1", "f2")
 
     def at(self, temperature: ArrayLike) -> Array:
-        """Return f at a temperature [K]."""
+        """Return the friction coefficient f at a temperature [K]."""
         T = np.asarray(temperature, dtype=float)
         return self.f0 + T * (self.f1 + T * self.f2)
 
     def slope(self, temperature: ArrayLike) -> Array:
-        """Return df/dT [1/K] at a temperature [K]."""
+        """Return the slope df/dT of the friction coefficient [1/K] at a temperature [K]."""
         return self.f1 + 2.0 * self.f2 * np.asarray(temperature, dtype=float)
 
     def least(self, hottest: float) -> float:
-        """Return the smallest f between the ambient temperature and `hottest` [K]."""
+        """Return the smallest friction coefficient between the ambient temperature and `hottest` [K]."""
         inner = -0.5 * self.f1 / self.f2 if self.f2 > 0.0 else 0.0
         return float(self.at([0.0, min(max(inner, 0.0), hottest), hottest]).min())
 
@@ -275,7 +275,7 @@ class MeltingBush:
 
     @property
     def clearance_ratio(self) -> float:
-        """Radial clearance of the cold, unworn bush per liner radius, Delta/R."""
+        """Radial clearance of the cold, unworn bush divided by the liner radius, Delta/R [1]."""
         return 1.0 - self.geometry.shaft_radius / self.geometry.radius
 
     @property
@@ -285,24 +285,24 @@ class MeltingBush:
 
     @property
     def compliance(self) -> float:
-        """a_1: displacement of the liner's surface per radius, for a pressure of one shear modulus."""
+        """Compliance a_1: surface displacement over radius at a pressure of one shear modulus."""
         nu = self.liner.poisson_ratio
         return self.thickness_ratio * (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu))
 
     @property
     def closing(self) -> float:
-        """Thermal displacement of the liner's surface per radius and kelvin, ln(R_2/R) B [1/K]."""
+        """Thermal displacement of the liner's surface, by radius and kelvin, ln(R_2/R) B [1/K]."""
         nu = self.liner.poisson_ratio
         return self.thickness_ratio * self.liner.expansion * (1.0 + nu) / (1.0 - nu)
 
     @property
     def force_unit(self) -> float:
-        """G R_1 times the length [N]: the load of which N is the multiple."""
+        """Unit of force, G R_1 times the length [N]; N is the load in this unit."""
         return self.liner.shear_modulus * self.geometry.shaft_radius * self.geometry.length
 
     @property
     def liner_conductance(self) -> float:
-        """Heat per contact area and kelvin across the liner, lambda_2/(R ln(R_2/R)) [W/(m2 K)]."""
+        """Thermal conductance of the liner for each contact area, lambda_2/(R ln(R_2/R)) [W/(m2 K)]."""
         return self.liner.conductivity / (self.thickness_ratio * self.geometry.radius)
 
     @cached_property
@@ -358,7 +358,7 @@ class MeltingBush:
         return contact.arc_angle(self.compliance * self.load_ratio(load) / gap)
 
     def load_ratio(self, load: ArrayLike) -> Array:
-        """Return N, the load [N] per length, shaft radius and shear modulus."""
+        """Return the dimensionless load N: the load [N] over length, shaft radius and shear modulus."""
         values = require_finite("load", load)
         if np.any(values < 0.0):
             raise InputError(f"load must not be negative, got {load!r}")

@@ -240,7 +240,7 @@ class SharedMelting:
         )
 
     def margins(self, at: HeatState) -> Array:
-        """Return total friction heat less total losses [W rad/m2], shape (1,)."""
+        """Return total friction heat minus total heat losses [W rad/m2], shape (1,)."""
         return np.array([at.work * at.total - 2.0 * at.angle * at.losses])
 
 
@@ -265,7 +265,7 @@ class LocalMelting:
         )
 
     def margins(self, at: HeatState) -> Array:
-        """Return friction heat less losses at each node [W/m2], shape (n,)."""
+        """Return friction heat minus heat losses at each node [W/m2], shape (n,)."""
         return at.work * at.pressure - at.losses
 
 
@@ -370,7 +370,7 @@ class BushReaction(Called):
 
     @property
     def states(self) -> tuple[Signal, ...]:
-        """Signals wear_0, wear_1, ...: wear depths at the nodes [m]."""
+        """Signals wear_0, wear_1 and so on, which are the wear depths at the nodes [m]."""
         depth = nominal_depth(self.bush)
         return signals_of(*((f"wear_{i}", "m", depth, f"wear depth at node {i}") for i in range(self.nodes)))
 

@@ -31,10 +31,10 @@ COOLING_LIMIT = 0.3
 
 @dataclass(frozen=True)
 class ExactShaft:
-    """Q_1 from the mixed problem (2.7)-(2.8) itself, to 1e-7."""
+    """The heat flux Q_1 from the mixed problem (2.7)-(2.8) itself, with an error of 1e-7."""
 
     def flux(self, cooling: float, stubbiness: float) -> float:
-        """Return Q_1 in units of lambda_1 T_*/R_1; cooling = kappa_1 R_1/lambda_1, stubbiness = R_1/l."""
+        """Return Q_1 in units of lambda_1 T_*/R_1; cooling is kappa_1 R_1/lambda_1 and stubbiness R_1/l."""
         return exact_flux(cooling, stubbiness)
 
 
@@ -43,7 +43,7 @@ class ApproximateShaft:
     """Q_1 as published, by the closed form (2.13): 0.6 to 2.9 % high for cooling 0.02 to 0.3."""
 
     def flux(self, cooling: float, stubbiness: float) -> float:
-        """Return Q_1 in units of lambda_1 T_*/R_1; warn beyond the `COOLING_LIMIT` of the source."""
+        """Return the flux Q_1 in units of lambda_1 T_*/R_1; warn beyond the `COOLING_LIMIT` of the source."""
         if cooling > COOLING_LIMIT:
             warn_user(
                 f"air_transfer shaft_radius / conductivity must not exceed {COOLING_LIMIT} for "
@@ -76,11 +76,11 @@ class ContactBalance:
     """
 
     def share(self, alpha: ArrayLike) -> Array:
-        """Return the factor of Q_1 in the balance, which is 1 here."""
+        """Return the factor by which the heat flux Q_1 enters the balance; it is 1 here."""
         return np.ones_like(np.asarray(alpha, dtype=float))
 
     def share_slope(self, alpha: ArrayLike) -> Array:
-        """Return d(share)/d(alpha) [1/rad], which is 0 here."""
+        """Return the derivative of `share` by alpha [1/rad]; it is 0 here."""
         return np.zeros_like(np.asarray(alpha, dtype=float))
 
 
@@ -92,11 +92,11 @@ class GlobalBalance:
     """
 
     def share(self, alpha: ArrayLike) -> Array:
-        """Return pi/alpha."""
+        """Return the share of Q_1 in the balance over the whole shaft, pi/alpha [1]."""
         return math.pi / np.asarray(alpha, dtype=float)
 
     def share_slope(self, alpha: ArrayLike) -> Array:
-        """Return -pi/alpha^2."""
+        """Return the derivative of `share` by alpha, -pi/alpha^2 [1/rad]."""
         return -math.pi / np.asarray(alpha, dtype=float) ** 2
 
 

@@ -109,7 +109,7 @@ class BallSupport(Called):
 
     @property
     def initial_state(self) -> Array:
-        """Balls that have rested at `position`."""
+        """The state of balls at rest at `position`."""
         return self.resting(self.position)
 
     def resting(self, position: ArrayLike) -> Array:
@@ -138,11 +138,11 @@ class BallSupport(Called):
         return np.concatenate([*blocks, np.zeros((2, 1, *z.shape[1:]))], axis=1)
 
     def at_rest(self) -> BallSupport:
-        """Return this support: at rest the films add nothing to the static laws."""
+        """Return this support itself, because the films do not change the static laws at rest."""
         return self
 
     def rest_state(self, position: ArrayLike, speed: float) -> Array:
-        """Return `resting`; the speed does not enter."""
+        """Return the states of `resting`; they do not depend on the speed."""
         return self.resting(position)
 
     def require_range(self, frequency: float) -> None:
@@ -176,7 +176,7 @@ class BallSupport(Called):
         return Linearization(A, B, C, D)
 
     def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return what changes sign where a ball leaves its film, and where its force vanishes."""
+        """Return functions that change sign when a ball leaves its film, or when its force vanishes."""
         return np.concatenate([self.law.events(t, part, [z]) for part, z in self._balls(x, u)])
 
     def native(self) -> NativeSpec | None:

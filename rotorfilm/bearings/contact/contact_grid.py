@@ -72,7 +72,7 @@ class ContactGrid:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Cells of the half that is solved for."""
+        """Numbers of cells of the half of the contact that is computed."""
         return self.cells[0], self.cells[1] // 2
 
     @property

@@ -80,12 +80,12 @@ class ContactLaw:
 
     @property
     def order(self) -> int:
-        """Number of states."""
+        """Number of states of the law."""
         return len(self.A)
 
     @property
     def initial_state(self) -> Array:
-        """Rest at any approach: the static force acts."""
+        """The state at rest, in which only the static force acts, at any approach."""
         return np.zeros(self.order)
 
     @cached_property
@@ -162,7 +162,7 @@ class ContactLaw:
         return np.asarray(self.force_scale * depth**self.exponent)
 
     def static_slope(self, z: ArrayLike) -> Array:
-        """Return its derivative by z [N/m], shape (...)."""
+        """Return the derivative of the static force by z [N/m], shape (...)."""
         depth = np.maximum(self.offset - np.asarray(z, dtype=float) / self.film_scale, 0.0) / self.span
         factor = -self.exponent / self.span * self.force_scale / self.film_scale
         return np.asarray(factor * depth ** (self.exponent - 1.0))

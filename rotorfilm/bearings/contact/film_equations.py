@@ -127,14 +127,14 @@ class Piezoviscosity(Protocol):
 
 @dataclass(frozen=True, kw_only=True)
 class BarusViscosity:
-    """The exponential law mu = exp(Q0 p)."""
+    """Barus' exponential law of viscosity, mu = exp(Q0 p)."""
 
     def mobility(self, pressure: Array, coefficient: float) -> Array:
-        """Return exp(-Q0 p)."""
+        """Return the mobility of the oil, exp(-Q0 p)."""
         return np.exp(-coefficient * pressure)
 
     def potential(self, pressure: Array, coefficient: float) -> Array:
-        """Return -exp(-Q0 p)/Q0."""
+        """Return the integral of the mobility over the pressure, -exp(-Q0 p)/Q0."""
         return -np.exp(-coefficient * pressure) / coefficient
 
 
@@ -165,7 +165,7 @@ class RoelandsViscosity:
             raise InputError(f"exponent must be at most 1, got {self.exponent!r}")
 
     def mobility(self, pressure: Array, coefficient: float) -> Array:
-        """Return 1/mu."""
+        """Return the mobility of the oil, 1/mu."""
         factor = coefficient / (self.pressure_ratio * self.exponent)
         positive = 1.0 + self.pressure_ratio * np.maximum(pressure, 0.0)
         return np.exp(factor * (1.0 - positive**self.exponent) - coefficient * np.minimum(pressure, 0.0))
@@ -231,7 +231,7 @@ class DowsonHigginsonDensity:
         return (1.0 + HIGGINSON_LIMIT * s) / (1.0 + s)
 
     def slope(self, pressure: Array) -> Array:
-        """Return d density / dp."""
+        """Return the derivative of the relative density by the pressure."""
         s = self.pressure_ratio * pressure
         return (HIGGINSON_LIMIT - 1.0) * self.pressure_ratio / (1.0 + s) ** 2
 

@@ -247,7 +247,7 @@ class PointContact:
         snapshots: Sequence[float] = (),
         keep: str | Path | None = None,
     ) -> ContactRun:
-        """Return the contact under a given approach delta(t); otherwise like `simulate`."""
+        """Simulate the contact under a given approach delta(t); all else is as in `simulate`."""
         return self._run(start, GivenMotion(approach=approach), duration, control, snapshots, keep)
 
     def save(self, run: ContactRun, path: str | Path) -> None:
@@ -404,33 +404,33 @@ class RollingBall:
 
     @property
     def combined_modulus(self) -> float:
-        """E' [Pa], 2/E' = (1 - nu^2)/E of the ball + that of the plane."""
+        """Combined modulus E' [Pa]: 2/E' is the sum of (1 - nu^2)/E of the ball and of the plane."""
         ball = (1.0 - self.poisson_ratio**2) / self.modulus
         return 2.0 / (ball + (1.0 - self.plane_poisson_ratio**2) / self.plane_modulus)
 
     @property
     def contact_radius(self) -> float:
-        """A of the dry contact (Hertz) [m]."""
+        """Radius a of the dry contact by Hertz [m]."""
         return float((1.5 * self.load * self.radius / self.combined_modulus) ** (1.0 / 3.0))
 
     @property
     def contact_pressure(self) -> float:
-        """p_H, largest pressure of the dry contact [Pa]."""
+        """Largest pressure p_H of the dry contact [Pa]."""
         return 1.5 * self.load / (math.pi * self.contact_radius**2)
 
     @property
     def film_scale(self) -> float:
-        """a^2/(2 R) [m]: unit of film thickness and approach."""
+        """Unit of film thickness and approach, a^2/(2 R) [m]."""
         return self.contact_radius**2 / (2.0 * self.radius)
 
     @property
     def time_scale(self) -> float:
-        """a/speed [s]: unit of time."""
+        """Unit of time, a/speed [s]."""
         return self.contact_radius / self.speed
 
     @property
     def V(self) -> float:
-        """Speed parameter [1]."""
+        """Speed parameter V of the contact, as in `PointContact` [1]."""
         scale = self.contact_pressure * self.contact_radius**3
         return 48.0 * self.viscosity * self.speed * self.radius**2 / scale
 
@@ -441,17 +441,17 @@ class RollingBall:
 
     @property
     def W(self) -> float:
-        """Inertia [1]."""
+        """Inertia parameter W of the ball, as in `PointContact` [1]."""
         return math.pi * self.mass * self.speed**2 / (3.0 * self.load * self.radius)
 
     @property
     def moes(self) -> Moes:
-        """Parameters of Moes, from the dimensionless ones."""
+        """The load parameter M and the material parameter L of Moes [1]."""
         return moes_parameters(self.V, self.Q0)
 
     @property
     def hamrock_dowson(self) -> HamrockDowson:
-        """Parameters of Hamrock and Dowson, with their film thicknesses / R."""
+        """The parameters of Hamrock and Dowson, and their film thicknesses divided by R [1]."""
         return HamrockDowson(
             self.viscosity * self.speed / (self.combined_modulus * self.radius),
             self.pressure_coefficient * self.combined_modulus,
@@ -740,7 +740,7 @@ class MovingContact:
         )
 
     def pack(self, state: Levels) -> bytes:
-        """Return a state as bytes, to the last bit."""
+        """Return a state as bytes, from which it is restored exactly."""
         buffer = io.BytesIO()
         rows: dict[str, Any] = {name: [getattr(level, name) for level in state] for name in Level._fields}
         np.savez(buffer, **rows)

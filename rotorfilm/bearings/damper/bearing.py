@@ -265,7 +265,7 @@ class SqueezeFilmDamper(InertialModel):
 
     @property
     def is_built(self) -> bool:
-        """Whether it has seals or fluid inertia."""
+        """Whether the damper has seals or fluid inertia."""
         return self.seals is not None or self.has_inertia
 
     @property
@@ -353,7 +353,7 @@ class SqueezeFilmDamper(InertialModel):
         return lambda x, y, vx, vy, speed: in_c(x, y, vx, vy, 0.0)
 
     def prepare_tangent(self) -> Tangent:
-        """Return force and derivatives as a function of five numbers; in C where the film is."""
+        """Return force and derivatives as a function of five numbers, in C if the film is compiled."""
         if self.film_in_c is None:
             return tangent_of(self)
         in_c = self.film_in_c.tangent
@@ -471,7 +471,7 @@ class SqueezeFilmDamper(InertialModel):
         return self.inertia_scale * self.film_inertia.force(*self._scaled(position, velocity))
 
     def convection_slopes(self, position: Array, velocity: Array) -> Array:
-        """Return its derivatives by position and velocity, shape (2, 4, ...)."""
+        """Return the derivatives of `convection` by position and velocity, shape (2, 4, ...)."""
         if not self.has_inertia:
             return np.zeros((2, 4, *position.shape[1:]))
         slopes = self.film_inertia.jacobian(*self._scaled(position, velocity))

@@ -126,7 +126,7 @@ class DamperSupply:
 
     @property
     def turns_alike(self) -> bool:
-        """Whether the supply is the same at all angles, so a centered circular orbit is steady."""
+        """Whether the supply is the same at all angles, so that a centered circular orbit is steady."""
         return not self.feed_holes
 
     def warn_of_air(self, drawn_in: float, side_flow: float) -> None:

@@ -598,7 +598,7 @@ class EndSeal:
 
     @property
     def bounds(self) -> tuple[EndSeal, EndSeal]:
-        """The tightest and the most leaking seal within the uncertainty."""
+        """The seals with the smallest and the largest leakage within the uncertainty."""
         low, high = (self.leakage * (1.0 + sign * self.uncertainty) for sign in (-1.0, 1.0))
         return EndSeal(leakage=low), EndSeal(leakage=high)
 

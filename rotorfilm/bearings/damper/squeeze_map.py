@@ -340,7 +340,7 @@ class CavitatedPotential:
             if np.all(np.abs(found.x - start) < FARTHEST) and np.abs(found.fun).max() < RESIDUAL:
                 return self._potential(self._film(eps, heading, found.x))
         raise ConvergenceError(
-            "ends of the film must be found, and were not at eccentricity ratio "
+            "the ends of the film were not found at the eccentricity ratio "
             f"{eps:.6g}, direction {heading:.6g} rad"
         )
 

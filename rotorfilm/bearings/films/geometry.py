@@ -68,7 +68,7 @@ class FeedHole:
 
     @property
     def side(self) -> float:
-        """Side of the square of the same area [m]."""
+        """Side of the square that has the area of the hole [m]."""
         return 0.5 * math.sqrt(math.pi) * self.diameter
 
     def require_fit(self, radius: float, length: float) -> None:
@@ -228,7 +228,7 @@ class FilmGeometry:
         for groove in self.grooves:
             if groove.length is not None:
                 raise InputError(
-                    f"grooves must be without length, those with one are pockets, got {groove!r}"
+                    f"grooves must be open at both ends of the bearing and so have no length, got {groove!r}"
                 )
         if self.pads and math.fsum(pad.extent for pad in self.pads) > TURN * (1.0 + 1e-12):
             raise InputError(f"pads must not overlap, got {brief(self.pads)}")
@@ -479,7 +479,7 @@ class Complementarity:
 
 @dataclass(frozen=True)
 class HalfSommerfeld:
-    """Guembel rupture: the negative pressures of the full film are dropped; flow is not conserved."""
+    """Half-Sommerfeld (Guembel) film: negative pressures are set to zero; the flow is not conserved."""
 
     searched: ClassVar[bool] = False
     """The film is solved full."""
@@ -490,7 +490,7 @@ class HalfSommerfeld:
 
 @dataclass(frozen=True)
 class FullFilm:
-    """Full (Sommerfeld) film: no rupture, negative pressures included."""
+    """Full film (Sommerfeld condition): it never ruptures, and negative pressures act."""
 
     searched: ClassVar[bool] = False
     """The film is solved full."""

@@ -737,7 +737,7 @@ class MassConserving(ConservedAtRest):
         return found
 
     def pack(self, state: ConservedFilmState) -> bytes:
-        """Return a state as bytes, to the last bit."""
+        """Return a state as bytes, from which it is restored exactly."""
         return np.array(state.cells, dtype=np.int64).tobytes() + state.numbers.tobytes()
 
     def unpack(self, content: bytes) -> ConservedFilmState:

@@ -264,7 +264,9 @@ class JournalBearing(FilmReaction, WarmBearing):
         """
         _ = self.cooled
         if self.in_balance is None:
-            raise InputError(f"film must have slopes of its losses, as MapFilm, got {self.fitted_film!r}")
+            raise InputError(
+                f"film must have slopes of its losses, such as MapFilm, got {self.fitted_film!r}"
+            )
         return self.in_balance.heat_slopes(position, velocity, speed) * [[self.film_viscosity], [1.0], [1.0]]
 
     def film_at_unit_viscosity(self) -> tuple[BoundKernel, LossKernel] | None:
@@ -481,8 +483,8 @@ def _share(along: float, length: float, lands: float) -> float:
     covered = along - (length - lands)
     if covered <= 0.0:
         raise InputError(
-            "an opening must be longer than the circumferential_groove that it crosses, "
-            f"{length - lands:.6g} m, got {along:.6g}"
+            "length of an opening must be above the width of the circumferential_groove that it crosses, "
+            f"{length - lands:.6g} m, got {along:.6g} m"
         )
     return covered / lands
 

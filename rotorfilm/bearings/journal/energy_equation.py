@@ -68,7 +68,7 @@ class AdiabaticWalls:
     """Bush and journal that take no heat: all of it leaves with the oil."""
 
     def response(self, radius: float, start: Array, extent: Array) -> None:
-        """Return None: the walls do not warm."""
+        """Return None, because these walls do not warm."""
 
 
 @quantities
@@ -89,7 +89,7 @@ class HeldWalls:
         require_each(self, require_positive, "bush_temperature", "journal_temperature")
 
     def response(self, radius: float, start: Array, extent: Array) -> WallResponse:
-        """Return a response of zero: the temperatures are given; see `BushRing.response`."""
+        """Return a response of zero, because the wall temperatures are given; see `BushRing.response`."""
         spread = np.zeros((len(start), len(start)))
         return WallResponse(spread, 1.0, 0.0, self.bush_temperature, 1.0, 0.0, self.journal_temperature)
 
@@ -351,7 +351,7 @@ class FilmProfile:
 
 @dataclass(frozen=True)
 class MeanTemperature(FilmProfile):
-    """One temperature across the film, a parabola between the walls with that mean; see `FilmProfile`."""
+    """A parabola of the temperature across the film, given by its mean; see `FilmProfile`."""
 
 
 @quantities

@@ -133,7 +133,7 @@ class GroovedMapFilm(KernelFilm):
 
     @property
     def is_grown(self) -> bool:
-        """Whether its map is over the Reynolds number too."""
+        """Whether the map has the Reynolds number as a further axis."""
         return self.mobility is not None and self.mobility.density > 0.0
 
     def at_scale(self, reynolds_scale: float) -> GroovedMapFilm | None:

@@ -345,7 +345,7 @@ class HeatedFilm(HeatRounds):
         require_cells(self.cells)
 
     def cold(self) -> Any:
-        """Return the film of fresh oil, with the grid lines of a centered journal."""
+        """Return the film at the viscosity of fresh oil, with the grid lines of a centered journal."""
         return replace(self._frozen(np.zeros(2), self._fresh()), frozen_at=None).reaction
 
     def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> Any:
@@ -552,7 +552,7 @@ class HeatedJFOFilm(HeatRounds):
         return self.film.bearing
 
     def cold(self) -> FrozenJFOFilm:
-        """Return the film of fresh oil."""
+        """Return the film at the viscosity of fresh oil."""
         return self._frozen(self._fresh(), np.zeros(2), 0.0)
 
     def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> FrozenJFOFilm:
@@ -694,6 +694,6 @@ class FrozenJFOFilm(JFOFilm):
     def at_temperature(self, temperature: float) -> NoReturn:
         """Raise InputError: the temperature of each cell is given already."""
         raise InputError(
-            f"temperature must not be set on a film of frozen temperature, got {temperature!r}: "
-            "take that of the JFOFilm"
+            f"temperature must not be set on a film with a temperature in each cell, got {temperature!r}: "
+            "call at_temperature of the JFOFilm"
         )

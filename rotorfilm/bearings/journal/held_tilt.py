@@ -80,11 +80,11 @@ class HeldTilt(StaticReaction):
         return self.journal.minimum_film(self._whole(require_vector("position", position)))
 
     def require_film(self, position: Array) -> None:
-        """Raise FilmContactError unless the journal, at positions (2, ...) [m], touches nowhere."""
+        """Raise FilmContactError if the journal touches the wall at any of the positions (2, ...) [m]."""
         self.journal.require_film(self._whole(position))
 
     def rest_place(self, load: Sequence[float], speed: float) -> Array:
-        """Return where a search for the rest under a load may begin, shape (2,) [m]."""
+        """Return a first guess of the equilibrium under a load, shape (2,) [m]."""
         aligned = self.journal.rest_place(load, speed)[:2] - self.journal.bush_offset
         away = aligned * min(1.0, self._room / math.hypot(*aligned) / 2.0)
         return np.asarray(self.journal.bush_offset + away)

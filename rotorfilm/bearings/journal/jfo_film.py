@@ -196,13 +196,13 @@ class JFOFilm(MassConserving):
 
     @property
     def clearance(self) -> float:
-        """Radial clearance of the bearing [m], of pads their own."""
+        """Radial clearance of the bearing [m]; for pads the pad clearance."""
         clearance: float = self.bearing.clearance
         return clearance
 
     @property
     def minimum_film(self) -> Any:
-        """What tells where a journal touches, of bearings that do; no attribute of a circular bore."""
+        """The minimum film of bearings that compute it; a circular bore has no such attribute."""
         return self.bearing.minimum_film
 
     def require_film(self, position: Array) -> None:
@@ -316,7 +316,7 @@ class JFOFilm(MassConserving):
         return replace(self, bearing=self.bearing.at_temperature(temperature))
 
     def at_rest(self) -> JFOFilm:
-        """Return this film: its force is that of a journal at rest."""
+        """Return this film itself, because its force is that of a journal at rest."""
         return self
 
     def losses(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> BearingLosses:
@@ -368,7 +368,7 @@ class JFOFilm(MassConserving):
 
     @property
     def cooled(self) -> tuple[Oil, Cooling]:
-        """Oil and cooling of its bearing; InputError if one of them is not given."""
+        """Oil and cooling of its bearing; raises InputError if one of them is not given."""
         found: tuple[Oil, Cooling] = self.bearing.cooled
         return found
 
@@ -377,12 +377,12 @@ class JFOFilm(MassConserving):
         return float(self.bearing.coldest())
 
     def balanced(self) -> None:
-        """Return None: no model has the balance temperature at every state."""
+        """Return None, because no model finds the balance temperature at every state."""
         return
 
     def in_time(self, start_temperature: float | None = None) -> None:
         """Raise InputError: its temperature over time is not modeled."""
-        raise InputError("film must be a law with a heat balance over time, as MapFilm, got JFOFilm")
+        raise InputError("film must be a law with a heat balance over time, such as MapFilm, got JFOFilm")
 
     def balanced_temperature(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> float:
         """Return the temperature at which the heat of the film balances at one state [K].
@@ -464,12 +464,12 @@ class MomentCarryingJFOFilm(TiltedJournal, ConservedAtRest):
         return journal_inputs(self.clearance, NOMINAL_SPEED, self.freedoms, self.arm)
 
     def least(self, place: Array) -> float:
-        """Return the least film over the clearance at one place (e, tau)."""
+        """Return the minimum film, in units of the clearance, at one displacement and tilt (e, tau)."""
         ends = np.stack([place[:2] + place[2:], place[:2] - place[2:]], axis=1)
         return float(np.min(minimum_film(self.film, self.clearance * ends))) / self.clearance
 
     def at_place(self, position: Array, velocity: Array, speed: float) -> tuple[ConservedState, Array, float]:
-        """Return the film of a journal at rest, and the scales of its forces and moments."""
+        """Return the film of a journal at rest, with the units of its forces and moments."""
         require_at_rest(velocity)
         self.require_film(position)
         film, scales = self.scaled.film, self._scales
@@ -481,7 +481,7 @@ class MomentCarryingJFOFilm(TiltedJournal, ConservedAtRest):
         return self.scaled.about(state, axes)
 
     def at_rest(self) -> MomentCarryingJFOFilm:
-        """Return this film: its force is that of a journal at rest."""
+        """Return this film itself, because its force is that of a journal at rest."""
         return self
 
 

@@ -81,12 +81,12 @@ class TiltedJournal:
 
     @property
     def bush(self) -> Array:
-        """Place of the bush, shape (4,) [m], [rad]."""
+        """Offset and tilt of the bush, shape (4,) [m], [rad]."""
         return np.zeros(4)
 
     @abstractmethod
     def least(self, place: Array) -> float:
-        """Return the least film over the clearance at one place (e, tau)."""
+        """Return the minimum film, in units of the clearance, at one displacement and tilt (e, tau)."""
 
     @property
     def arm(self) -> float:
@@ -338,7 +338,7 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
 
     @property
     def bush(self) -> Array:
-        """Place of the bush, shape (4,) [m], [rad]."""
+        """Offset and tilt of the bush, shape (4,) [m], [rad]."""
         return np.array([*self.bush_offset, *self.bush_tilt])
 
     @property
@@ -375,7 +375,7 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
         return np.asarray(1.0 + depth / self.bearing.clearance)
 
     def least(self, place: Array) -> float:
-        """Return the least film over the clearance at one place (e, tau)."""
+        """Return the minimum film, in units of the clearance, at one displacement and tilt (e, tau)."""
         if self.level is TiltLevel.FULL:
             return min(film.least(place) for film in self.films)
         ends = np.stack([place[:2] + place[2:], place[:2] - place[2:]], axis=1) * self.bearing.clearance
@@ -442,7 +442,7 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
 
     @property
     def closed_share(self) -> float:
-        """Factor g of the moment in closed form; 0 of a level without."""
+        """Factor g of the moment in closed form; 0 for levels without a moment."""
         ratio = float(self.bearing.slenderness)
         return moment_share(ratio) if self.level is TiltLevel.CLOSED_FORM else 0.0
 

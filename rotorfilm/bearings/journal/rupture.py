@@ -170,7 +170,7 @@ class RotatingArc:
     """The ends turn with the source."""
 
     def shortcoming(self, basis: Basis) -> str:
-        """Return an empty string: half a circle suits every basis."""
+        """Return an empty string, because half a circle suits every basis."""
         return ""
 
     def arc(
@@ -325,7 +325,7 @@ class SlitArc:
 
     @property
     def turns(self) -> bool:
-        """Whether the end depends on the direction of the source."""
+        """Whether the end of the arc depends on the direction of the source."""
         return self.extent is None
 
     def shortcoming(self, basis: Basis) -> str:
@@ -334,7 +334,7 @@ class SlitArc:
         return rule.shortcoming(basis)
 
     def in_mirror(self) -> SlitArc:
-        """Return the arc in a mirror, y to -y."""
+        """Return the arc reflected from y to -y."""
         return replace(self, slit=-self.slit - (self.extent or 0.0))
 
     def arc(

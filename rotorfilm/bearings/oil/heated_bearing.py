@@ -69,7 +69,7 @@ class HeatedBearing:
 
     @property
     def capacity(self) -> float:
-        """Heat capacity of the bush, and of the oil in the concentric film [J/K]."""
+        """Heat capacity of the bush and of the oil in the concentric film, together [J/K]."""
         oil, cooling = self.bearing.cooled
         R, L = self.bearing.radius, self.bearing.length
         film = 2.0 * math.pi * R * L * self.clearance
@@ -96,7 +96,7 @@ class HeatedBearing:
 
     @property
     def states(self) -> tuple[Signal, ...]:
-        """Signal temperature: of film and bush."""
+        """Signal temperature, the common temperature of film and bush."""
         text = "temperature of film and bush"
         return signals_of(("temperature", "K", NOMINAL_TEMPERATURE, text))
 

@@ -278,7 +278,7 @@ class LobedBearing(FilmReaction, PadBearing):
 
     @property
     def arcs(self) -> tuple[Lobe, ...]:
-        """The lobes."""
+        """The lobes as arcs of the film."""
         return self.lobes
 
     def require_film(self, position: Array) -> None:
@@ -361,7 +361,7 @@ class LobedBearing(FilmReaction, PadBearing):
         """
         _, cooling = self.cooled
         if not isinstance(self.film, LossyPadFilm):
-            raise InputError(f"film must be one with losses for heat, as PadMapFilm, got {self.film!r}")
+            raise InputError(f"film must be one with losses, such as PadMapFilm, got {self.film!r}")
         q, v, omega = broadcast_state(position, velocity, speed)
         self.bound_film.force(q, v, omega)  # raises where the journal touches
         pads = [self._under(lobe, q, v, omega, slopes=True) for lobe in self.lobes]

@@ -148,16 +148,16 @@ class PadBearing(WarmBearing):
     @property
     @abstractmethod
     def arcs(self) -> Sequence[OwnCenter]:
-        """The pads as arcs, tilting ones without tilt."""
+        """The pads as arcs of the film; tilting pads are without tilt."""
 
     @property
     def preloads(self) -> tuple[float, ...]:
-        """Preload of each pad [1], or the one that all have."""
+        """Preload of each pad [1]; one value if it is the same for all pads."""
         return tuple(arc.preload for arc in self.arcs)
 
     @property
     def extents(self) -> tuple[float, ...]:
-        """Angle that each pad covers [rad], or the one that all cover."""
+        """Angle that each pad covers [rad]; one value if it is the same for all pads."""
         return tuple(arc.extent for arc in self.arcs)
 
     @property
@@ -197,7 +197,7 @@ class PadBearing(WarmBearing):
 
     @property
     def bore_clearance(self) -> float:
-        """Clearance c_b of the assembled bearing [m], that of the pads with most preload."""
+        """Clearance c_b of the assembled bearing [m], given by the pads with the largest preload."""
         return self.clearance * (1.0 - max(self.preloads))
 
     @property
@@ -227,7 +227,7 @@ class PadBearing(WarmBearing):
     def heat_jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
         """Raise InputError: among bearings with pads, only fixed lobes have derivatives of the heat."""
         kind = type(self).__name__
-        raise InputError(f"bearing must have slopes of its heat, as a LobedBearing, got a {kind}")
+        raise InputError(f"bearing must have derivatives of its heat, such as a LobedBearing, got a {kind}")
 
     def force_noise(self, speed: float) -> float:
         """Return the roundoff error of the force [N], as preloaded pads press each other; see `core.port`."""
@@ -453,7 +453,7 @@ def heat_slopes_of_pads(
     for k, (pad, of) in enumerate(zip(pads, flows, strict=True)):
         de, dF = cast(Array, pad.eccentricity_slopes), cast(Array, pad.force_slopes)
         if of.slopes is None:
-            raise InputError(f"film must have slopes of its losses, as PadMapFilm, got {film!r}")
+            raise InputError(f"film must have slopes of its losses, such as PadMapFilm, got {film!r}")
         slopes = of.slopes[:, :, 0]
         shear, by_e = of.shear[0], slopes[0, :2]
         if cooling.full_gap:

@@ -42,7 +42,7 @@ MUCH_PRELOAD = 0.5
 
 @runtime_checkable
 class PadFilm(Protocol):
-    """A film law of one pad: Reynolds rupture, ambient pressure at its ends and sides."""
+    """The film law of one pad with Reynolds rupture and ambient pressure at all its edges."""
 
     def kernel(self, extent: float, slenderness: float) -> FilmKernel:
         """Return the compiled film in the frame of a pad, whose middle is at the angle 0.
@@ -124,7 +124,7 @@ class PadMapFilm:
 
     @property
     def is_grown(self) -> bool:
-        """Whether its map is over the Reynolds number too."""
+        """Whether the map has the Reynolds number as a further axis."""
         return self.mobility is not None and self.mobility.density > 0.0
 
     def _plan(self, extent: float, slenderness: float) -> MapPlan[PadMapTable]:

@@ -108,7 +108,7 @@ def report_pads(bearing: Any, status: int, pad: int, position: Array) -> None:
     if status == Status.NO_MEMORY:
         raise MemoryError("no memory for a film")
     if status == Status.STUCK:
-        raise ConvergenceError(f"the tilt must be found, and was not, of {where}")
+        raise ConvergenceError(f"the tilt was not found of {where}")
     raise InputError(f"states and inputs must be finite and not overflow, at {where}")
 
 

@@ -231,7 +231,7 @@ class PressureDamBearing(PadBearing, KernelReaction):
 
     @property
     def arcs(self) -> tuple[RecessedPad, ...]:
-        """The pads."""
+        """The pads as arcs of the film."""
         return self.pads
 
     @property

@@ -162,7 +162,7 @@ class TiltingPadBearing(Called, PadBearing):
 
     @property
     def arcs(self) -> tuple[OwnCenter, ...]:
-        """The pads without tilt."""
+        """The pads as arcs of the film, without tilt."""
         own = {"extent": self.extent, "preload": self.preload, "offset": self.pivot_offset}
         return tuple(OwnCenter(start=at - self.pivot_offset * self.extent, **own) for at in self.pivots)
 
@@ -225,7 +225,7 @@ class TiltingPadBearing(Called, PadBearing):
         return len(self.pivots) * (1 if self.pivot_stiffness is None else 2)
 
     def moving(self, places: Array) -> Array:
-        """Return the states of pads in these positions, with all rates 0."""
+        """Return the states of pads at given positions, with all rates equal to 0."""
         return places if self.pad_inertia is None else np.concatenate([places, np.zeros_like(places)])
 
     @property
@@ -282,7 +282,7 @@ class TiltingPadBearing(Called, PadBearing):
         return replace(warm, start=tuple(float(place) for place in places))
 
     def rest_state(self, position: ArrayLike, speed: float) -> Array:
-        """Return the state with the journal and all pads at rest, shape (n_states,)."""
+        """Return the state in which the journal and all pads rest, shape (n_states,)."""
         return self.at_rest().state(position, speed)
 
     def rest_linearization(self, position: ArrayLike, speed: float) -> Linearization:

@@ -66,7 +66,7 @@ class RollingMaterial:
 
     @property
     def compliance(self) -> float:
-        """(1 - nu^2)/E [1/Pa]."""
+        """Compliance of the material in a contact, (1 - nu^2)/E [1/Pa]."""
         return (1.0 - self.poisson_ratio**2) / self.young_modulus
 
 
@@ -113,7 +113,7 @@ class Waviness:
 
     @property
     def numbers(self) -> tuple[float, float, float, float, float]:
-        """As the compiled kernel reads it."""
+        """The wave, as the compiled kernel reads it."""
         return float(self.inner), float(self.lobes), self.radial_amplitude, self.axial_amplitude, self.phase
 
 
@@ -247,7 +247,7 @@ class BallBearing(BallElement):
 
     @property
     def running(self) -> tuple[BallLaw, float]:
-        """Law of the balls and growth of the inner ring [m]."""
+        """The law of the balls, and the growth of the inner ring [m]."""
         return self.law, self.growth
 
     @property
@@ -271,13 +271,13 @@ class BallBearing(BallElement):
 
     @property
     def reaches(self) -> tuple[float, float]:
-        """Distances [m] of the center of a ball from those of inner and outer groove at first touch."""
+        """Distances [m] of a ball's center from the centers of the inner and outer groove at first touch."""
         D = self.ball_diameter
         return (self.inner_conformity - 0.5) * D, (self.outer_conformity - 0.5) * D
 
     @property
     def groove_distance(self) -> float:
-        """A [m], distance of the centers of curvature of both grooves at first touch."""
+        """Distance A of the centers of curvature of both grooves when the balls first touch [m]."""
         return sum(self.reaches)
 
     @property
@@ -294,7 +294,7 @@ class BallBearing(BallElement):
         return self.contacts_at(self.free_contact_angle, self.free_contact_angle)
 
     def contacts_at(self, inner_angle: float, outer_angle: float) -> tuple[EllipticContact, EllipticContact]:
-        """Return inner and outer contact of a ball at these contact angles [rad]."""
+        """Return the inner and the outer contact of a ball at given contact angles [rad]."""
         compliance = self.ball_material.compliance + self.ring_material.compliance
         sides = (1.0, self.inner_conformity, inner_angle), (-1.0, self.outer_conformity, outer_angle)
         found = []
@@ -417,7 +417,7 @@ class BearingPair(BallElement):
 
     @property
     def contacts(self) -> tuple[EllipticContact, EllipticContact]:
-        """Inner and outer contact of a ball."""
+        """The contacts of a ball with the inner and the outer race."""
         return self.bearing.contacts
 
     @property

@@ -61,7 +61,7 @@ class BallElement(KernelReaction, ABC):
     @property
     @abstractmethod
     def contacts(self) -> tuple[EllipticContact, EllipticContact]:
-        """Inner and outer contact of a ball."""
+        """The contacts of a ball with the inner and the outer race."""
 
     @property
     @abstractmethod
@@ -246,8 +246,8 @@ class BallElement(KernelReaction, ABC):
         most = self.running[0].most_traction
         if traction > most:
             warn_user(
-                f"the gyroscopic moment asks for a traction coefficient of {traction:.3g}, beyond about "
-                f"{most:.3g} balls slide, {where}"
+                f"the gyroscopic moment needs a traction coefficient of {traction:.3g}; balls slide beyond "
+                f"about {most:.3g}, {where}"
             )
 
     @property
@@ -359,7 +359,7 @@ class BallElement(KernelReaction, ABC):
             )
 
     def require_film(self, position: Array) -> None:
-        """Accept every position: balls push back wherever the shaft goes."""
+        """Accept every position, because balls push back wherever the shaft goes."""
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape."""
@@ -487,7 +487,7 @@ class BallLoads(Readable):
 
     @property
     def carrying(self) -> int:
-        """Number of loaded balls."""
+        """Number of balls that carry load."""
         return int((self.inner_load > 0.0).sum())
 
 
@@ -585,12 +585,12 @@ class EllipticContact:
 
     @property
     def radius(self) -> float:
-        """R [m], 1/R = the sum of both curvatures."""
+        """Effective radius R [m]; 1/R is the sum of both curvatures."""
         return 1.0 / (1.0 / self.rolling_radius + 1.0 / self.groove_radius)
 
     @property
     def stiffness(self) -> float:
-        """Load over approach^1.5 [N/m^1.5]."""
+        """Stiffness constant of the contact, load / approach^1.5 [N/m^1.5]."""
         first, second, _ = self.integrals
         scale = math.sqrt(2.0 * second * self.radius / (9.0 * first**3))
         return math.pi * self.ellipticity * self.combined_modulus * scale
@@ -617,7 +617,7 @@ class EllipticContact:
         return float((load / self.stiffness) ** (2.0 / 3.0))
 
     def load_at(self, pressure: float) -> float:
-        """Return the load [N] under which the largest pressure [Pa] is this."""
+        """Return the load [N] at which the largest pressure has the given value [Pa]."""
         require_non_negative("pressure", pressure)
         return (pressure / self.pressure(1.0)) ** 3
 
@@ -690,12 +690,12 @@ class RunningBalls:
 
     @property
     def numbers(self) -> Numbers:
-        """Balance of traction, by these numbers."""
+        """The parameters of the friction balance, as the compiled kernel reads them."""
         return 3, self.traction_coefficient, self.slide_to_roll_ratio
 
     @property
     def parameters(self) -> tuple[tuple[str, str, float, str], ...]:
-        """Both numbers, as parameters of an FMU."""
+        """Traction coefficient and slide-to-roll ratio, as parameters of an FMU."""
         return (
             ("traction_coefficient", "1", self.traction_coefficient, "friction over load of a sliding ball"),
             ("slide_to_roll_ratio", "1", self.slide_to_roll_ratio, "at which friction is 0.71 of that"),
@@ -735,7 +735,7 @@ class RaceControl:
 
     @property
     def numbers(self) -> Numbers:
-        """Control by one race."""
+        """The parameters of race control, as the compiled kernel reads them."""
         return (1 if self.outer_control else 2), 0.0, 0.0
 
     parameters: ClassVar[tuple[()]] = ()

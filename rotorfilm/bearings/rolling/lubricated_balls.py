@@ -108,12 +108,12 @@ class RaceFilm:
 
     @property
     def film_scale(self) -> float:
-        """b^2/(2 R_x) [m]: unit of film thickness and approach."""
+        """Unit of film thickness and approach, b^2/(2 R_x) [m]."""
         return self.half_axis**2 / (2.0 * self.touch.rolling_radius)
 
     @property
     def time_scale(self) -> float:
-        """t0 = 2 b/(u1 + u2) [s]: unit of time."""
+        """Unit of time, t0 = 2 b/(u1 + u2) [s]."""
         return self.half_axis / self.rolling_speed
 
     @property
@@ -138,7 +138,7 @@ class RaceFilm:
 
     @property
     def stiffness(self) -> float:
-        """Of the dry contact, k_H = 1.5 load/approach [N/m]."""
+        """Stiffness of the dry contact, k_H = 1.5 load/approach [N/m]."""
         return 1.5 * self.load / self.touch.approach(self.load)
 
     @property
@@ -414,7 +414,7 @@ class LubricatedBalls:
 
     @property
     def order(self) -> int:
-        """States of each ball."""
+        """Number of states of each ball."""
         return len(self.A)
 
     @cached_property
@@ -443,7 +443,7 @@ class LubricatedBalls:
 
     @property
     def initial_state(self) -> Array:
-        """Steady state of the films."""
+        """The steady state of the films, in which the balls start."""
         return np.zeros(len(self.states))
 
     def resting(self, u: ArrayLike) -> Array:

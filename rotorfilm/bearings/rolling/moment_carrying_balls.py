@@ -90,7 +90,7 @@ class MomentCarryingBalls(StaticReaction):
 
     @property
     def arm(self) -> float:
-        """Distance of the inner groove from the axis [m]."""
+        """Distance of the center of the inner groove from the axis [m]."""
         return float(self.bearing.rows[0, ROW.index("arm")])
 
     def force_noise(self, speed: float) -> float:
@@ -98,7 +98,7 @@ class MomentCarryingBalls(StaticReaction):
         return self.bearing.force_noise(speed)
 
     def require_film(self, position: Array) -> None:
-        """Accept every place: balls push back wherever the shaft goes."""
+        """Accept every position, because balls push back wherever the shaft goes."""
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape."""
@@ -260,11 +260,11 @@ class VariableComplianceBalls(MomentCarryingBalls):
 
     @property
     def initial_state(self) -> Array:
-        """Zero angles."""
+        """The initial angles of cage and shaft, which are zero."""
         return np.zeros(2)
 
     def rest_state(self, position: ArrayLike, speed: float) -> Array:
-        """Return the angles that cage and shaft start with, wherever the shaft is: they never rest."""
+        """Return the initial angles of cage and shaft, because these states have no equilibrium."""
         return self.initial_state
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
@@ -290,7 +290,7 @@ class VariableComplianceBalls(MomentCarryingBalls):
         return np.array(self._turned(x, u).each["gap"])
 
     def native(self) -> NativeSpec | None:
-        """Return the kernel `five_degree_balls`, with growth and damping as parameters; else None."""
+        """Return the kernel `five_degree_balls` with growth and damping as parameters, or None."""
         if type(self) is not VariableComplianceBalls or self.freedoms != BALL_FREEDOMS:
             return None
         _, _, z, about_x, about_y = self._offset.tolist()

@@ -80,7 +80,7 @@ class PalmgrenBalls(StaticReaction):
         return 0.1 * self.constant * self.clearance**1.5
 
     def require_film(self, position: Array) -> None:
-        """Accept every position: balls push back wherever the shaft goes."""
+        """Accept every position, because balls push back wherever the shaft goes."""
 
     def prepare_tangent(self) -> Tangent:
         """Return force and derivatives as one function of five numbers; see `core.port.Reaction`."""

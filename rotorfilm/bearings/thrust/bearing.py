@@ -97,7 +97,7 @@ class ThrustBearing(SectorPads, StaticReaction):
 
     @property
     def closed(self) -> bool:
-        """Whether the film closes to a ring."""
+        """Whether the pads form one continuous film around the collar."""
         return self.continuous
 
     @property

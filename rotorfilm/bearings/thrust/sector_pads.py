@@ -341,12 +341,12 @@ class SectorPads(WarmBearing):
 
     @property
     def tilts(self) -> int:
-        """Tilts of each pad."""
+        """Number of tilts of each pad."""
         return 0
 
     @property
     def closed(self) -> bool:
-        """Whether the film closes to a ring."""
+        """Whether the pads form one continuous film around the collar."""
         return False
 
     @property

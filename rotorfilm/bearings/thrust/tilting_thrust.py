@@ -93,12 +93,12 @@ class TiltingThrustBearing(SectorPads):
 
     @property
     def tilts(self) -> int:
-        """Tilts of each pad."""
+        """Number of tilts of each pad."""
         return 1 if self.line_pivot else 2
 
     @property
     def origin(self) -> float:
-        """Position of the pivot as a share of the arc: the axis of a pad's frame."""
+        """Axis of a pad's frame: the position of the pivot as a fraction of the arc."""
         return self.pivot_arc
 
     @property
@@ -127,7 +127,7 @@ class TiltingThrustBearing(SectorPads):
 
     @property
     def turning(self) -> float:
-        """A speed [rad/s] of the sense in which the pads carry."""
+        """A speed [rad/s] in the sense of rotation in which the pads carry load."""
         return math.copysign(NOMINAL_SPEED, self.pivot_arc - 0.5)
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:

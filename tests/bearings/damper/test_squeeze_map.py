@@ -242,7 +242,7 @@ def test_short_map_goes_on_as_the_film_at_the_wall(turn):
 
 def test_ends_that_are_not_found_are_an_error(monkeypatch):
     monkeypatch.setattr(squeeze_potential, "RESIDUAL", 0.0)
-    with pytest.raises(ConvergenceError, match="ends of the film must be found"):
+    with pytest.raises(ConvergenceError, match="ends of the film were not found"):
         CavitatedPotential(0.5, None)(0.5, 1.0)
 
 

@@ -153,7 +153,7 @@ def test_openings_without_size_are_refused(made):
 def test_bad_shares_are_refused(share):
     with pytest.raises(InputError, match="share must be above 0 and below 1"):
         Pocket(center=0.0, width=0.1, share=share)
-    with pytest.raises(InputError, match="those with one are pockets"):
+    with pytest.raises(InputError, match="grooves must be open at both ends"):
         FilmGeometry(grooves=(SHORT,))
 
 

@@ -228,7 +228,7 @@ def test_level_two():
         ({"cases": {}}, "cases must hold at least one"),
         ({"stages": []}, "stages must be at least one"),
         ({"speed": 0.0}, "speed| must be finite and positive"),
-        ({"nodes": {}}, "nodes must hold at least one node"),
+        ({"nodes": {}}, "nodes must name at least one node"),
         ({"nodes": {1: -1.0}}, r"nodes\[1\] must be finite and positive"),
         ({"nodes": {9: 1.0}}, "node 0 to 2"),
         ({"average_density": math.nan}, "average_density must be finite and positive"),

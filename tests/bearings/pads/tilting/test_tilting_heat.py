@@ -143,7 +143,7 @@ def test_what_the_heat_of_tilting_pads_refuses(five):
             call()
     with pytest.raises(InputError, match="velocity be"):
         five().losses([0.0, 0.0], [1e-3, 0.0], SPEED)
-    with pytest.raises(InputError, match="slopes of its heat"):
+    with pytest.raises(InputError, match="derivatives of its heat"):
         warm.heat_jacobian([0.0, 0.0], [0.0, 0.0], SPEED)
     assert warm.film_at_unit_viscosity() is None
     assert warm.native() is None
