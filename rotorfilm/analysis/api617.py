@@ -240,10 +240,11 @@ def stability_level_one(
 
     Notes
     -----
-    API 617, 7th ed. (2002), part 1, 2.6.5, and its successor in the 8th ed. (2014). Level II is required for
-    centrifugal compressors where Q0 / QA < 2, delta_A < 0.1, or Q0 / QA < 10 in region B of critical speed
-    ratio and density; for axial rotors where delta_A < 0.1. The border of region B is what ROSS reads off the
-    figure: CSR 2.5 up to 16.53 kg/m3, from there in a line to 2.0 at 60 kg/m3; beyond, all is region B.
+    API 617, 7th ed. (2002), part 1, 2.6.5, and its successor in the 8th ed. (2014). Level II is
+    required for centrifugal compressors where Q0 / QA < 2, delta_A < 0.1, or Q0 / QA < 10 in region B of
+    critical speed ratio and density; for axial rotors where delta_A < 0.1. The border of region B has the
+    values that ROSS reads off the figure. It is CSR 2.5 up to 16.53 kg/m3, then a straight line to 2.0 at 60
+    kg/m3. Beyond 60 kg/m3 every point is in region B.
     """
     _require_cases(cases, stages, speed)
     each = _expected(stages, speed if stage_speed is None else stage_speed)
@@ -363,7 +364,7 @@ class StabilityLevelTwo(Readable):
     verdict : str
         Verdict in plain words.
     acceptable : bool
-        Whether the final log decrement is above 0.1, and nothing else grows.
+        Whether the final log decrement is above 0.1 and no other motion grows.
     log_decrement : float [1]
         delta_f, of the first forward whirl with all destabilizing and damping effects on the rotor.
     frequency : float [rad/s]

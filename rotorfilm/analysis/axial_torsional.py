@@ -212,8 +212,8 @@ def collar_response(
     Returns
     -------
     control.FrequencyResponseData
-        Input `skew` [1]: that of the collar. Outputs as of `unbalance_response`, of the shaft without the
-        skew; the forces at its station are those of this motion alone.
+        Input `skew` [1]: that of the collar. Outputs as in `unbalance_response`, for the shaft without the
+        skew. The forces at its station are only those of this motion.
 
     Raises
     ------

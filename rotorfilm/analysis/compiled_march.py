@@ -116,7 +116,8 @@ def simulate_rotor(
     Warns
     -----
     ValidityWarning
-        If a journal goes beyond the map of its film, or a film gets thinner than surfaces are rough.
+        If a journal goes beyond the map of its film, or a film gets thinner than the roughness of its
+        surfaces.
     """
     require_duration(mounted.bare, duration)
     require_positive("rtol", rtol)

@@ -569,7 +569,7 @@ def hopf_point(family: Callable[[float], MountedRotor], bounds: tuple[float, flo
     Raises
     ------
     InputError
-        If the rest is stable, or unstable, at both.
+        If the equilibrium is stable at both ends, or unstable at both.
     ConvergenceError
         If it is lost there without whirl.
     EquilibriumError

@@ -116,8 +116,8 @@ def equilibria(reaction: port.Reaction, load: ArrayLike, speeds: ArrayLike) -> t
     Parameters
     ----------
     reaction : Reaction
-        As in `equilibrium`. The force of one without a compiled force, or with states or heat, is searched
-        speed by speed.
+        As in `equilibrium`. If it has no compiled force, or has states or heat, its equilibria are found one
+        speed after the other.
     load : array_like, shape (n_freedoms,) or (n_freedoms, n) [N]
         One load for all speeds, or one for each.
     speeds : array_like, shape (n,) [rad/s]

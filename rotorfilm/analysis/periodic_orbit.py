@@ -162,7 +162,7 @@ def periodic_orbit(
         may have states, but no added mass. Bearings that react to x and y alone run in compiled loops.
     start : PeriodicOrbit or Trajectory, optional
         An orbit nearby, or a run of `simulate_rotor` that ends in one; by default small motion about the
-        rest, which leads to the orbit of one turn.
+        equilibrium, which leads to the orbit of one turn.
     periods : int
         Turns of the shaft per orbit: 2 after a period doubling. The orbit of one turn solves these equations
         too, so that another one needs a start.

@@ -201,8 +201,8 @@ def rotor_modes(
 ) -> RotorModes:
     """Return the whirl modes of a rotor on its films at a speed.
 
-    Rigid-body motion that nothing holds is not listed, as of a weightless rotor without bearings. With a
-    `highest_frequency` the rotor is reduced to the mode shapes that this frequency needs.
+    Rigid-body motion without restoring force, for example of a weightless rotor without bearings, is not
+    listed. With a `highest_frequency` the rotor is reduced to the mode shapes that this frequency needs.
 
     Parameters
     ----------
@@ -475,8 +475,7 @@ class Campbell(Whirls, Drawable):
     ----------
     speeds : ndarray, shape (n_speeds,) [rad/s]
     eigenvalues : ndarray, shape (n_modes, n_speeds) [1/s]
-        Eigenvalues by mode; nan where a mode does not oscillate, or is much faster than the modes that were
-        asked for.
+        Eigenvalues by mode; nan where a mode does not oscillate, or is much faster than the requested modes.
     direction : ndarray, shape (n_modes, n_speeds) [1]
         Direction as in `RotorModes`; nan likewise.
     frequency : ndarray, shape (n_modes, n_speeds) [rad/s]
@@ -676,12 +675,12 @@ def critical_speeds(
 
     Notes
     -----
-    Over a step of speeds the state matrix, in the eigenvectors of its middle, is diag(s) and small numbers.
-    They bound what may become of each eigenvector (Brouwer; one only: Earle and Hamilton 1970), and all other
-    eigenvalues by Gershgorin's circles. A step counts as proven if no other eigenvalue can come to the line
-    Im s = |speed|, and if the frequencies of those that can all grow more slowly than the speed, or all
-    faster. Each then crosses once at most, and Newton's method tells whether it does. Other steps are halved,
-    up to 14 times.
+    Over a step of speeds the state matrix, in the eigenvectors of its middle, is diag(s) and
+    small numbers. They bound what may become of each eigenvector (Brouwer; one only: Earle and Hamilton
+    1970), and all other eigenvalues by Gershgorin's circles. A step counts as proven if no other eigenvalue
+    can come to the line Im s = |speed|, and if the frequencies of those that can all grow more slowly than
+    the speed, or all faster. Each then crosses at most once, and Newton's method finds whether it does. Other
+    steps are halved, up to 14 times.
 
     The proof is for the shapes kept, whose eigenvalues have an estimated error of at most 1e-6. The critical
     speeds found are solved in all coordinates. For films it assumes that their K and C bend within a step at

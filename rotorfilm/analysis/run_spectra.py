@@ -320,11 +320,11 @@ none; least correlation of growing whirl with an exponential."""
 
 @arguments
 def run_whirl(run: Trajectory, station: str = "", speed: Speed = None) -> RunWhirl:
-    """Return what a run at constant speed shows of whirl: whether it grows, lasts or dies out.
+    """Return whether the whirl in a run at constant speed grows, lasts or decays.
 
-    In each of eight windows, mean and three harmonics of the speed are fitted to x + i y; the rest is whirl.
-    A run shows the whirl that something sets going: one that rests exactly in its equilibrium shows none,
-    and `rotor_modes` or `whirl_threshold` tell of its stability.
+    In each of eight windows the mean and three harmonics of the speed are fitted to x + i y; the remaining
+    motion is whirl. A run that starts exactly in its equilibrium without an excitation shows no whirl.
+    `rotor_modes` or `whirl_threshold` then give the stability.
 
     Parameters
     ----------

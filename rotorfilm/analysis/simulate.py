@@ -547,8 +547,7 @@ class RingContacts(Readable):
     Attributes
     ----------
     begin, end : ndarray, shape (n,) [s]
-        Begin and end of each contact. A contact that goes on at the first or last sample begins or ends
-        there.
+        Begin and end of each contact. A contact that exists at the first or last sample begins or ends there.
     normal_force : ndarray, shape (n,) [N]
         Largest normal force among its samples.
     """

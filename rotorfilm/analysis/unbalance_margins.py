@@ -320,8 +320,8 @@ def bow_response(
     Returns
     -------
     control.FrequencyResponseData
-        Input `bow` [1]: the bow, 1 as it is. Outputs as of `unbalance_response`, displacements that include
-        the bow: a slow shaft on rigid bearings moves as it is bowed.
+        Input `bow` [1]: the bow, 1 as it is. Outputs as in `unbalance_response`. Displacements include the
+        bow: on rigid bearings a slow shaft moves by its bow.
 
     Raises
     ------

@@ -242,7 +242,7 @@ class SharedReaction(InertialModel):
 @quantities
 @dataclass(frozen=True)
 class Parallel(SharedReaction):
-    """Reactions side by side on one shaft: forces and added masses add up, states stand one after the other.
+    """Reactions side by side on one shaft: forces and added masses add up, and states are joined.
 
     It reacts to all motions to which one of them does, as a journal bearing beside a thrust bearing. The name
     of a state begins with the number of its reaction, for example part0_tilt_1.

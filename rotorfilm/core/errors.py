@@ -108,7 +108,7 @@ class UnloadedPadWarning(ValidityWarning):
 
 
 class FileWarning(RuntimeWarning):
-    """A file of rotorfilm is damaged or cannot be written: work is repeated or may be lost."""
+    """A file of rotorfilm is damaged or cannot be written, so that work is repeated or may be lost."""
 
 
 class CouplingWarning(ValidityWarning):

@@ -45,14 +45,16 @@ class Reaction(Model, Protocol):
     - `rest_state(position, speed)`, the equilibrium states there; without it Newton's method finds them;
     - `from_rest(position, speed, temperature)`, this reaction with the initial states of an equilibrium
       there;
-    - `at_rest()`, a reaction without states: this one with its states at rest under a shaft at rest; by
-      `completed(found)` that may return an `Equilibrium` with what it knows besides, as loads of pads;
+    - `at_rest()`, a reaction without states: this one with its states in equilibrium under a shaft at rest.
+      Its `completed(found)` may add further results to an `Equilibrium`, such as the loads of pads;
     - `rest_linearization(position, speed)`, the exact derivatives about that rest;
-    - `states_rest`, whether its states rest with the shaft, where having `force` does not tell;
-    - `dynamic_stiffness(position, speed)`, K(s) of small motion where no states of its own tell it;
+    - `states_rest`, whether its states have an equilibrium when the shaft rests, if having a `force` does not
+      show this;
+    - `dynamic_stiffness(position, speed)`, K(s) of small motion, if it does not follow from its own states;
     - `require_range(frequency)`, which warns or raises where the model ends for motion that fast;
     - `has_inertia`, `mass(...)`, `mass_slopes(...)`: F = force - mass acceleration;
-    - `force_along(position, velocity, acceleration, speed)`, that F where it is more than these tell;
+    - `force_along(position, velocity, acceleration, speed)`, this force F, if it does not follow from the
+      others;
     - `is_warming`, `at_temperature(T)`, `balanced_temperature(...)`, `coldest()`, `balanced()`, `in_time()`,
       where the temperature of the film follows from its heat;
     - `breakpoints`, the times [s] at which an integrator should stop, in rising order;

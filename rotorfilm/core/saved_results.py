@@ -42,7 +42,7 @@ def save_result(result: Any, path: Path | str) -> Path:
     Raises
     ------
     InputError
-        If it holds something else, as a function; the message names it.
+        If it contains something else, such as a function; the message names it.
     """
     return write_sealed(path, json.dumps(_packed(result, type(result).__name__)).encode(), SETTINGS)
 

@@ -67,7 +67,7 @@ def export_fmu(
     path : str or Path
         File to write, ending in `.fmu`; its folder is made if need be.
     version : str
-        FMI version, "2.0" or "3.0"; the python backend knows "2.0" only.
+        FMI version, "2.0" or "3.0"; the python backend supports "2.0" only.
     backend : str, optional
         What runs the model inside the FMU: "native", the C library, or "python", PythonFMU. By default
         "native" for a model with a kernel, else "python".

@@ -317,8 +317,8 @@ def fit_bearing(
     Raises
     ------
     InputError
-        If an argument breaks its rule, or the measurements do not tell the free parameters apart; the message
-        names those.
+        If an argument breaks its rule, or the measurements do not determine all free parameters; the message
+        names these.
     EquilibriumError
         If a trial bearing does not carry a load.
     ConvergenceError

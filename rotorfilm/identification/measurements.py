@@ -49,7 +49,7 @@ class Measurements:
         measured.
     noise : mapping of str to float, optional
         Standard deviation of each quantity, in its unit. Without it, each quantity is weighted by its own
-        size, and the residuals of the fit tell how noisy it is.
+        size, and the residuals of the fit give its noise.
 
     Raises
     ------

@@ -217,7 +217,8 @@ class BaseExcitedRotor(TimeExcitedRotor):
 
     In this moving frame each mass has the inertia force -mass acceleration. So the equations of the rotor are
     M q'' = ... - M j a, with the translation j of the whole rotor and the ground acceleration a. Supports,
-    tilt springs and external damping stand on the ground. Different motions of the housings are not covered.
+    tilt springs and external damping are connected to the ground. Different motions of the housings are not
+    covered.
 
     Parameters
     ----------

@@ -654,8 +654,8 @@ class Probe:
     name : str
         Prefix of its outputs.
     angle : float [rad]
-        From +x to the first of two sensors, which has the output `name_x`; the other stands a quarter of a
-        turn further about +z.
+        From +x to the first of two sensors, which has the output `name_x`; the other is a quarter of a turn
+        further about +z.
     """
 
     node: int

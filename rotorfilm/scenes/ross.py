@@ -80,10 +80,10 @@ def read_ross(path: str | Path, *, speed: float | rotors.SpeedProfile = 0.0) -> 
     Raises
     ------
     InputError
-        If the file is no such file, or has something that a ShaftRotor cannot represent: modal damping, no
-        rotary inertia, masses of bearings over speed, couplings that damp, couplings and disks that are
-        anisotropic, point masses with two masses, supports over speed, damping by the stiffness of an axial
-        force or a torque.
+        If the file is no such file, or has something that a ShaftRotor cannot represent. This is modal
+        damping, no rotary inertia, masses of bearings over speed, supports over speed, and damping by the
+        stiffness of an axial force or a torque. It is also couplings that damp, couplings and disks that are
+        anisotropic, and point masses with two masses.
 
     Notes
     -----

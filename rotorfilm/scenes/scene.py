@@ -255,7 +255,7 @@ class Scene:
         Raises
         ------
         InputError
-            If nothing is asked, or something that the scene's tables do not have.
+            If the scene has no question, or one that its tables cannot answer.
         RotorfilmError
             If no rung has an answer.
 

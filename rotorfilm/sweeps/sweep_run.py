@@ -63,8 +63,8 @@ def sweep(
         values) share that dimension, for example for Monte Carlo samples:
         `{"journal.clearance": ("sample", c), ...}`.
     path : path, optional
-        NetCDF file to write. While the sweep runs its rows are kept beside it; the same sweep, started again
-        after an interruption, goes on from there.
+        NetCDF file to write. While the sweep runs, its rows are kept in a folder beside this file. If the
+        same sweep is started again after an interruption, it continues from these rows.
     changes : mapping of str to object, optional
         Values of further keys at all points, in place of those of the scene.
     workers : int, optional

@@ -41,7 +41,7 @@ class BallSupport(Called):
 
     The ball at the angle theta is approached by z = gap - n . q, n = (cos theta, sin theta), q the position
     of the journal, and pushes it with -n F(z), F being the law. The balls roll at fixed angles, as in a
-    bearing whose cage stands still or turns slowly, against a rigid outer ring. Each law holds for one
+    bearing whose cage does not turn or turns slowly, against a rigid outer ring. Each law holds for one
     rolling speed: the angular speed of the journal has no influence. Use this class to study the dynamics of
     the lubricated contact. A bearing from a catalog, with grooves, contact angle, thrust or fast balls, is a
     `BallBearing`.

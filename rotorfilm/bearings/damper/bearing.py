@@ -113,7 +113,7 @@ class PorousCage:
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class RadialFeed:
-    """Lubricant fed radially: with a given velocity at the back of a sealed porous layer, or at the film.
+    """Radial oil feed with a given velocity, at the back of a sealed porous layer or at the film.
 
     Darcy's law gives the share of the flow that reaches the film; the rest leaves through the ends of the
     layer (95 % reaches the film at H/L = 0.1). With a thin layer or a solid cage (jets) all of it does.

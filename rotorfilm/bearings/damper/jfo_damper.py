@@ -535,11 +535,13 @@ def damper_turn(
         Position of the rotor at n equal times of a turn, at least 24; with 192 the force has an error of 0.2
         %.
     speed : float [rad/s]
-        Turns of the motion in 2 pi seconds, positive: with the rotor's unbalance, its speed.
+        Angular frequency of the motion, positive; for motion by the rotor's unbalance it is the speed of the
+        rotor.
     most_turns : int
         Largest number of periods before an error is raised.
     tolerance : float [1]
-        Change of the force from turn to turn, over the largest force, at which it repeats itself.
+        Largest change of the force from turn to turn, relative to the largest force, at which the motion
+        counts as periodic.
 
     Raises
     ------

@@ -19,7 +19,7 @@ TURN = 2.0 * math.pi
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class Groove:
-    """An axial groove in the bearing wall, filled with lubricant at the supply pressure.
+    """An axial groove in the bearing wall, filled with oil at the supply pressure.
 
     Parameters
     ----------

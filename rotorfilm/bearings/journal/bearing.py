@@ -264,9 +264,7 @@ class JournalBearing(FilmReaction, WarmBearing):
         """
         _ = self.cooled
         if self.in_balance is None:
-            raise InputError(
-                f"film must have slopes of its losses, such as MapFilm, got {self.fitted_film!r}"
-            )
+            raise InputError(f"film must have slopes of its losses, as MapFilm has, got {self.fitted_film!r}")
         return self.in_balance.heat_slopes(position, velocity, speed) * [[self.film_viscosity], [1.0], [1.0]]
 
     def film_at_unit_viscosity(self) -> tuple[BoundKernel, LossKernel] | None:
@@ -763,7 +761,7 @@ def heat_numbers(bearing: WarmBearing, position: ArrayLike, speed: float) -> Hea
     Raises
     ------
     InputError
-        If the bearing has no oil or no cooling, its film law knows no losses, or no oil leaves its film.
+        If the bearing has no oil or no cooling, its film law has no losses, or no oil leaves its film.
     FilmContactError
         If the journal touches the wall.
     """

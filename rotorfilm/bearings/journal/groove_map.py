@@ -129,9 +129,10 @@ class GrooveMapTable(GrownTable):
         return float(unstretch(self.reach))
 
     def kernel(self, axis: float, per_rate: float = 1.0, density: float = 1.0) -> MapKernel:
-        """Return the compiled film, the axis of the openings being at this angle [rad].
+        """Return the compiled film with the axis of the openings at a given angle [rad].
 
-        Where it grows its Reynolds number is `per_rate` [s] times half the speed, at a density [kg/m3].
+        A map over the Reynolds number takes `per_rate` [s] times half the speed as this number, at a density
+        [kg/m3].
         """
         numbers = [self.slenderness, self.reach, self.crowding, axis, float(self.mobility == 0.0)]
         tables: dict[str, Any] = {

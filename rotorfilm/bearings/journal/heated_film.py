@@ -301,13 +301,13 @@ class HeatedFilm(HeatRounds):
     ----------
     bearing : JournalBearing, LobedBearing, PressureDamBearing or TiltingPadBearing
         Bearing with oil and cooling; of these it takes supply temperature and carry-over. Its film law and
-        its housing conductance are not used. The gaps between pads act as openings. Tilting pads stand so
-        that the film of each has no moment about its pivot.
+        its housing conductance are not used. The gaps between pads act as openings. Tilting pads have the
+        tilts at which the film of each has no moment about its pivot.
     walls : Walls
         `BushRing(...)`, `HeldWalls(...)`, or by default `AdiabaticWalls()`. Tilting pads do not take a
         `BushRing`.
     cells : tuple of int
-        Cells around the film and along half the length, as of `ReynoldsFilm`.
+        Cells around the film and along half the length, as in `ReynoldsFilm`.
     profile : FilmProfile
         `MeanTemperature()`, or `LayeredTemperature(...)` for the temperature across the film too.
 

@@ -135,8 +135,8 @@ class TiltEstimate(NamedTuple):
     """What a tilt does to a film, and how far a level is off.
 
     The estimates come from the part of the force that the tilt makes. Of a plain bearing at rest they hold
-    within a factor of two in nine of ten states, those of a moment in 17 of 20. The error of the force of
-    second order is its term of fourth order, which the map tells by how it changes over the tilt. Near the
+    within a factor of two in nine of ten states, those of a moment in 17 of 20. The error of the second-order
+    force is its term of fourth order. The map gives it from the change of the force along the tilt. Near the
     center they come from the shifts of end and middle, and rather say too much: there the end shifts 1.5
     times as far as the middle, or more.
 
@@ -204,11 +204,11 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
 
         moment_x = -integral of z f_y dz,    moment_y = integral of z f_x dz
 
-    for the force f(z) per length, about the middle of the bearing. Contact is that of the ends too. It goes
+    for the force f(z) per length, about the middle of the bearing. Contact is that of the ends too. Put it
     into a station with `feels_tilt=True` of a `ShaftRotor`.
 
-    Let d be the part of the force that the tilt makes, as `estimate` tells it, and t the part of the aligned
-    least film that it takes. The levels are
+    Let d be the part of the force that comes from the tilt, as `estimate` returns it. Let t be the
+    displacement of the ends by the tilt over the least film of the aligned journal. The levels are
 
     - `NONE`: the aligned force, which has an error of d, and no moment;
     - `CLOSED_FORM`: that force, and a moment T = g F_w w1 + 2 g F_e tau with a usual error of 15 to 30 %,
@@ -242,7 +242,7 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
     bush_offset : (float, float) [m]
         Place of the middle of the bush, x and y.
     bush_tilt : (float, float) [rad]
-        Rotation of the bush about x and y: positions of the journal are told from the line of the shaft.
+        Rotation of the bush about x and y: positions of the journal are relative to the line of the shaft.
     tilt_map : TiltMapTable, optional
         The map of `SECOND_ORDER`, where it is there already.
 
@@ -434,7 +434,7 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
     def tilted_call(self) -> FilmCall | None:
         """Return force and moment as a compiled function of nine numbers.
 
-        None of the full film and of a misaligned bush, which are asked in Python.
+        None for the full film and for a misaligned bush, which are evaluated in Python.
         """
         if self.level is TiltLevel.FULL or np.any(self.bush):
             return None

@@ -539,8 +539,8 @@ class Cooling:
         Heat flow through bush and housing per kelvin between film and ambient; 0 where all heat leaves with
         the oil.
     carry_over : float [1]
-        Share of the oil arriving at an opening that goes on into the next film, 0 to 1; it is not used
-        without openings.
+        Share of the oil arriving at an opening that enters the next film, 0 to 1; it is not used without
+        openings.
     bush_heat_capacity : float or None [J/K]
         Heat capacity of the bush and of the parts of housing and shaft that warm with it. None takes a steel
         ring from the bore to `RING` times the radius.

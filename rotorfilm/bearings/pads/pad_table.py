@@ -91,7 +91,8 @@ class PadMapTable(GrownTable):
     def kernel(self, per_rate: float = 1.0, density: float = 1.0) -> MapKernel:
         """Return the compiled film of the pad.
 
-        Where it grows its Reynolds number is `per_rate` [s] times half the speed, at a density [kg/m3].
+        A map over the Reynolds number takes `per_rate` [s] times half the speed as this number, at a density
+        [kg/m3].
         """
         numbers = [self.extent, *self.u_range, self.y_end]
         tables: dict[str, Any] = {"coefficients": self.coefficients, "map": numbers}

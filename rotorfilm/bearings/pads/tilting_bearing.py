@@ -205,7 +205,7 @@ class TiltingPadBearing(Called, PadBearing):
         return self.kernel_on(self.film_at_speed)
 
     def kernel_on(self, film: PadFilm) -> TiltingKernel:
-        """Return the bearing in compiled code with another film, of fresh oil where none is stated."""
+        """Return the bearing in compiled code with another film, by default that of fresh oil."""
         return TiltingKernel(
             film.kernel(self.extent, self.slenderness),
             self.extent,

@@ -84,7 +84,7 @@ class Waviness:
     Parameters
     ----------
     inner : bool
-        Whether it is on the inner ring, which turns, or on the outer one, which stands.
+        Whether it is on the inner ring, which turns, or on the outer ring, which is fixed.
     lobes : int
         Number of waves around the circumference.
     radial_amplitude : float [m]

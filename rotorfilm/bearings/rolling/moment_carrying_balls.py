@@ -119,7 +119,7 @@ class MomentCarryingBalls(StaticReaction):
         Raises
         ------
         EquilibriumError
-            If the balls cannot carry the load: as of `BallBearing.rest`, or under race control.
+            If the balls cannot carry the load, as in `BallBearing.rest`, or under race control.
         """
         if len(self._moving) == DEGREES:
             found: Array | None = self.bearing.rest(np.asarray(load, dtype=float), speed).displacement
@@ -219,11 +219,11 @@ class VariableComplianceBalls(MomentCarryingBalls):
     bearing : BallBearing or BearingPair
         The ball bearing; its cage angle is that at t = 0.
     freedoms : tuple of str
-        Freedoms as of `MomentCarryingBalls`; x and y by default, with the tilts and the axial place or load
+        Freedoms as in `MomentCarryingBalls`; x and y by default, with the tilts and the axial place or load
         given.
     cage_ratio : float or None [1]
-        Speed of the cage over that of the shaft, as `bearing.rest(load, speed)` tells it; by default
-        (1 - D cos(angle)/pitch_diameter)/2 at the free contact angle.
+        Speed of the cage over that of the shaft, as `bearing.rest(load, speed)` returns it; by default (1 - D
+        cos(angle)/pitch_diameter)/2 at the free contact angle.
 
     Raises
     ------

@@ -29,16 +29,16 @@ class ThrustBearing(SectorPads, StaticReaction):
         force_z = integral of p,    moment_x = integral of Y p,    moment_y = -integral of X p.
 
     Without taper, step and crown the pads are plane and carry nothing while the collar is aligned and at
-    rest. With `continuous` the film goes on from pad to pad: a ring with steps, or a plain collar, whose
-    film is full and pushes only against motion (a squeeze film). Dimensions, lubricant and side are given as
-    to all `SectorPads`.
+    rest. With `continuous` the film continues from pad to pad. This is a ring with steps, or a plain collar,
+    whose film is full and acts only against motion (a squeeze film). Dimensions, lubricant and side are given
+    as to all `SectorPads`.
 
     Parameters
     ----------
     taper_depth : float [m]
         Depth of a taper at the leading edge, for rotation about +z.
     taper_share : float [1]
-        Part of the arc that the taper takes; the rest is a land.
+        Part of the arc that the taper takes; the remaining part is a land.
     step_depth : float [m]
         Depth of a step: of a recess from the leading edge.
     step_share : float [1]
@@ -46,7 +46,7 @@ class ThrustBearing(SectorPads, StaticReaction):
     step_width : float [1]
         Part of the width that it takes, about the middle.
     continuous : bool
-        Whether the film goes on from pad to pad.
+        Whether the film continues from pad to pad.
 
     Raises
     ------
@@ -115,7 +115,7 @@ class ThrustBearing(SectorPads, StaticReaction):
         return sorted(arc), sorted(width)
 
     def depth(self, along: Array, across: Array) -> Array:
-        """Return the depth [m] at parts of the arc and of the width."""
+        """Return the depth [m] at fractions of the arc and of the width, each from 0 to 1."""
         taper = self.taper_depth * np.maximum(1.0 - along / self.taper_share, 0.0)
         inside = (along < self.step_share) & (np.abs(2.0 * across - 1.0) < self.step_width)
         return np.asarray(super().depth(along, across) + taper + self.step_depth * inside)

@@ -369,7 +369,7 @@ class SectorPads(WarmBearing):
         return [0.0, 1.0], [0.0, 1.0]
 
     def depth(self, along: Array, across: Array) -> Array:
-        """Return the depth [m] at parts of the arc and of the width."""
+        """Return the depth [m] at fractions of the arc and of the width, each from 0 to 1."""
         return self.crown * (2.0 * along - 1.0) ** 2 + 0.0 * across
 
     @cached_property

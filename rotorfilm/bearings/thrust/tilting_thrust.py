@@ -40,12 +40,11 @@ _STARTS = (
 class TiltingThrustBearing(SectorPads):
     """A thrust bearing of pads on pivots: a Reaction to z, tilt_x, tilt_y, its states the tilts of the pads.
 
-    A pad turns about its pivot until the pressure has no moment about it. Its gap is h = depth + h_p
-    + A_t s_t + A_r s_r, with s_t along the rotation, s_r outward from the pivot, and h_p as of a fixed pad.
-    Pads have no mass: their rates follow from the balance of moments. Under a collar at rest the ratios
-    A_t/h_p and A_r/h_p of flat pads depend on the shape alone, and the force is proportional to
-    viscosity speed/h_p^2. Coefficients name their frequency: tilts follow slow motion, and lag behind fast
-    one.
+    A pad turns about its pivot until the pressure has no moment about it. Its gap is h = depth + h_p + A_t
+    s_t + A_r s_r, with s_t along the rotation, s_r outward from the pivot, and h_p as for a fixed pad. Pads
+    have no mass: their rates follow from the balance of moments. Under a collar at rest the ratios A_t/h_p
+    and A_r/h_p of flat pads depend on the shape alone, and the force is proportional to viscosity
+    speed/h_p^2. Coefficients name their frequency: tilts follow slow motion, and lag behind fast one.
 
     Signs are those of a `ThrustBearing`, dimensions and lubricant those of all `SectorPads`.
 
