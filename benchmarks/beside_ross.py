@@ -133,12 +133,10 @@ def draw(rows: list[dict], version: str) -> None:
     cost.set(xscale="log", yscale="log", xlabel="equilibrium, K and C of one bearing [ms of the processor]")
     cost.set(
         ylabel="largest error of K, C / largest entry",
-        title="Beside the film of 384 x 32 cells, extrapolated",
+        title="Compared with a film of 384 x 32 cells, extrapolated",
     )
     cost.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), fontsize=8)
-    prints.set(
-        ylabel="largest distance of K, C / largest entry", title="Beside what Lund & Thomsen (1978) print"
-    )
+    prints.set(ylabel="largest distance of K, C / largest entry", title="Compared with Lund & Thomsen (1978)")
     labels = [name.replace(", S", "\nS") for name in ROWS]
     prints.set_xticks(range(len(labels)), labels, rotation=30, ha="right", fontsize=7)
     prints.set_ylim(bottom=0.0)

@@ -133,7 +133,7 @@ def draw(path: str, times: np.ndarray, found: dict[str, np.ndarray]) -> None:
     angles = np.linspace(-0.55, 0.55, 401)
     pressures = {f"t = {stage.times[k]:g}": (angles, stage.pressure(angles)[k]) for k in (0, 40, 400)}
     plot_contact_pressure(pressures, modulus=3e8).draw(panels[0, 1])[0].set_title(
-        "Pressure as published, N = .01"
+        "Pressure as published, N = 0.01"
     )
     cooling = np.linspace(0.02, 0.3, 30)
     for mu in (0.1, 0.25, 0.5, 1.0):

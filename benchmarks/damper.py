@@ -156,7 +156,7 @@ def draw(found: dict[str, tuple[float, float, float]], path: Path) -> None:
     for name, (cost, median, high) in rungs.items():
         left.errorbar(1e6 * cost, median, yerr=[[0.0], [high - median]], fmt="o", capsize=5, label=name)
     left.set(xscale="log", yscale="log", xlabel="time of one force in a batch, us")
-    left.set(ylabel="force error (dot: median, bar: 99 %)", title="L/D = .25, Phi = .001")
+    left.set(ylabel="force error (dot: median, bar: 99 %)", title="L/D = 0.25, Phi = 0.001")
     left.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.02, 1.0))
     left.xaxis.set_minor_formatter(NullFormatter())
     gradings = np.linspace(0.0, 4.0, 81)
@@ -171,7 +171,7 @@ def draw(found: dict[str, tuple[float, float, float]], path: Path) -> None:
         cages = [replace(film.cage, grading=value, **change) for value in gradings]
         right.plot(gradings, [centered_damping(replace(film, cage=cage)) for cage in cages], label=label)
     right.set(
-        xlabel="grading", ylabel="damping / that of a solid cage", title="small motion, Phi = .02, H/L = .1"
+        xlabel="grading", ylabel="damping / that of a solid cage", title="small motion, Phi = 0.02, H/L = 0.1"
     )
     right.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.02, 1.0))
     figure.savefig(path, dpi=110)

@@ -143,8 +143,8 @@ def main() -> None:
     )
     print("|---|---|---|---|---|---|---|---|---|---|")
     for name, mounted in (
-        ("rigid, .7 of threshold", rigid(0.7)),
-        ("rigid, .98 of threshold", rigid(0.98)),
+        ("rigid, 0.7 of threshold", rigid(0.7)),
+        ("rigid, 0.98 of threshold", rigid(0.98)),
         ("flexible, 28 dof", flexible()),
     ):
         orbit = periodic_orbit(mounted)

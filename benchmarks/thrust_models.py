@@ -74,7 +74,7 @@ def main(file):
         cost = [seconds(model, rest) * 1e6 for _, model in models]
         right.semilogy([label for label, _ in models], cost, "o-", label=name)
     right.set(ylabel="time of force and derivatives, from Python [us]", xlabel="film, cells of a pad")
-    right.set_title("Cost under a tilted collar: every pad is another")
+    right.set_title("Cost under a tilted collar (each pad has another film)")
     right.legend(fontsize=8)
     figure.savefig(file, dpi=110)
 

@@ -64,7 +64,7 @@ def draw(folder: Path) -> None:
         )
         left.clabel(lines, fmt="%d %%", fontsize=8, manual=LABELS[k])
         left.plot([], [], f"C{k}{style}", label=name)
-    left.legend(loc="upper left")
+    left.legend(loc="lower left")
     left.axvline(onset(SIZE["radius"], SIZE["clearance"]), color="k", lw=0.8, ls=":")
     left.set(xscale="log", xlabel="Reynolds number speed R c/nu [1]", ylabel="eccentricity ratio [1]")
     left.set_title("Error of the laminar film (dotted: onset)", fontsize=10)

@@ -79,7 +79,7 @@ def draw(path: Path) -> Path:
     figure = new_figure(size=(14.0, 3.9))
     shown = figure.subplots(1, 4)
     elliptical = lobe_set("elliptical", preload=0.55)
-    set_of_pads(shown[0], elliptical, "preload m = 1 - c_b/c_p (elliptical, offset .5)")
+    set_of_pads(shown[0], elliptical, "preload m = 1 - c_b/c_p (elliptical, offset 0.5)")
     clearances(shown[0], elliptical[0])
     set_of_pads(shown[1], lobe_set("offset_halves", preload=0.55), "offset 1: closest at the trailing end")
     set_of_pads(shown[2], tilting(False), "tilting pads, load on a pad")

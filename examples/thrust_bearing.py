@@ -37,8 +37,7 @@ for pad in range(bearing.pads):
         found.angle, found.radius * 1e3, found.pressure.T / 1e6, cmap="viridis", shading="gouraud", vmin=0.0
     )
     axes.plot(found.angle[0] * np.ones(2), found.radius[[0, -1]] * 1e3, color="white", lw=1)
-axes.set(ylim=(0, 80), yticks=[40, 80], xticklabels=[], title="Pressure over the collar, rotation +z")
-axes.set_rlabel_position(19)
+axes.set(ylim=(0, 80), yticks=[], xticklabels=[], title="Pressure on pads of 40 to 80 mm radius, rotation +z")
 axes.grid(visible=False)
 figure.colorbar(drawn, label="pressure [MPa]")
 figure.savefig("thrust.png", dpi=110)

@@ -60,7 +60,7 @@ for eps, low in ((0.1, 0.94), (0.2, 0.98)):
 figure = new_figure(size=(11.0, 5.0))
 left, right = figure.subplots(1, 2)
 plot_orbit_curves(curves, parameter="speed / threshold of whirl").draw(left)
-left.set_title("Whirl of a short bearing")
+left.set_title("Whirl of a short bearing (dashed: unstable)")
 
 light = family(*threshold(0.1))(0.97)
 line = np.linspace(-0.97, 0.97, 29)

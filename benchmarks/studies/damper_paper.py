@@ -62,7 +62,9 @@ soft = {"porous, no spring": orbits(support(0.12, phi=0.01, grading=0.1, spring=
 plot_transmissibility(thin, unit=UNIT).draw(right)
 plot_eccentricity({**thick, **soft}, unit=UNIT).draw(low)
 plot_phase({**thick, **soft}, unit=UNIT).draw(last)
-for axes, title in zip((top, right, low, last), ("B = .12", "B = .04", "B = .12", "B = .12"), strict=True):
+for axes, title in zip(
+    (top, right, low, last), ("B = 0.12", "B = 0.04", "B = 0.12", "B = 0.12"), strict=True
+):
     axes.set_title(f"{title}, dotted: unstable, cross: contact")
 figure.savefig("damper_paper.png", dpi=110)
 

@@ -705,8 +705,8 @@ def orbit_coefficients(reaction: port.Reaction, eccentricity_ratio: float, speed
     """Return the equivalent coefficients of a film on a synchronous circular orbit.
 
     With fluid inertia the stiffness includes the term -mass speed^2. A linear code may use these coefficients
-    for a cavitated film, which has no damping matrix at rest. They are exact for this orbit only, are no
-    derivatives, and differ at every radius.
+    for a cavitated film, which has no damping matrix at rest. They are exact for this orbit only. They are no
+    derivatives of the force, and they differ at every radius.
 
     Parameters
     ----------

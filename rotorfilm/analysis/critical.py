@@ -573,7 +573,7 @@ def require_all_undamped(
     wanted = sum(counts) if low.speed * high.speed < 0.0 else abs(counts[1] - counts[0])
     if found != wanted:
         raise ConvergenceError(
-            f"only {found} of {wanted} critical speeds were found between {low.speed:.6g} and "
+            f"{found} of {wanted} critical speeds were found between {low.speed:.6g} and "
             f"{high.speed:.6g} rad/s"
         )
 

@@ -146,7 +146,7 @@ def require_all_growing(
         return
     count = rotor_growing(structure, at, values)
     if count != growing:
-        raise ConvergenceError(f"only {growing} of {count} growing exponents were found at {speed:.6g} rad/s")
+        raise ConvergenceError(f"{growing} of {count} growing exponents were found at {speed:.6g} rad/s")
 
 
 def _frequencies(reference: np.ndarray, found: np.ndarray, speed: float) -> Array:
@@ -217,7 +217,7 @@ def counted_exponents(
         if known == growing:
             return np.array(found), growing
     raise ConvergenceError(
-        f"only {len(found)} of {growing} growing exponents of a mass of {mass:.6g} kg on the film were "
+        f"{len(found)} of {growing} growing exponents of a mass of {mass:.6g} kg on the film were "
         f"found: {found}"
     )
 

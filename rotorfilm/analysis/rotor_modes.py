@@ -723,7 +723,7 @@ def resonant_speeds(speeds: ArrayLike, critical: Sequence[CriticalSpeed]) -> Arr
     speeds : array_like, shape (n,) [rad/s]
         Rising.
     critical : sequence of CriticalSpeed
-        Critical as `critical_speeds` returns them. Critical speeds without damping are left out, since their
+        Critical speeds, as `critical_speeds` returns them. Those without damping are skipped, since their
         peak is infinite.
 
     Returns

@@ -283,12 +283,13 @@ def run_spectrum(run: Trajectory, signal: str = "", start: float = -math.inf) ->
     signal : str
         Any signal of the run; the first displacement along x by default.
     start : float [s]
-        Time from which on it is taken, as the end of a transient; the start of the run by default.
+        Time from which the signal is used, for example the end of a transient; by default the start of the
+        run.
 
     Raises
     ------
     InputError
-        If the signal is not there, or has less than 8 samples.
+        If the run has no such signal, or fewer than 8 samples of it.
 
     Notes
     -----

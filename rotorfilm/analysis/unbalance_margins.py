@@ -477,7 +477,8 @@ def residual_unbalance(mass: float, speed: float) -> float:
 
     Notes
     -----
-    API 617, 7th ed. (2002), part 1: from 25000 rpm on W / 3.937 g mm, 4 W / N oz in before it in pounds.
+    API 617, 7th ed. (2002), part 1. From 25 000 rpm on the limit is W / 3.937 g mm. In US units the formula
+    below that speed is 4 W / N oz in, with W in pounds.
     """
     require_positive("mass", mass)
     require_positive("|speed|", abs(speed))

@@ -217,7 +217,7 @@ class Series:
         Raises
         ------
         EquilibriumError
-            If the body has no rest, as in a ruptured film without springs.
+            If the body has no equilibrium, for example in a ruptured film without springs.
         """
         q = require_finite("position", position)
         b = self._resting_body(q, speed)

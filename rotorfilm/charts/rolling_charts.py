@@ -35,7 +35,7 @@ def plot_ball_curves(result: BallCurves) -> Picture:
     ]
     loaded = f"Load distribution, {result.thrust:g} N along z, {result.load:g} N along -y"
     thrust = f"Contact angles under {result.thrust:g} N of thrust"
-    pairs = "Pairs back to back by their preload as clamped"
+    pairs = "Back-to-back pairs, by the preload at which they are clamped"
     panels = (
         PicturePanel(loads, "place of the ball from +x [deg]", "contact load [N]", loaded),
         PicturePanel(angles, "speed [rpm]", "contact angle [deg]", thrust),
@@ -57,8 +57,8 @@ def plot_compliance(result: VariableCompliance) -> Picture:
     panel = PicturePanel(
         marks,
         "frequency [Hz]" if passing else "multiple of the ball-pass frequency",
-        "amplitude of the place, zero-to-peak [nm]",
-        f"Swing under {math.hypot(*result.load):.4g} N as balls pass, {passing:.4g} Hz",
+        "amplitude of the shaft, zero-to-peak [nm]",
+        f"Motion under {math.hypot(*result.load):.4g} N, ball-pass frequency {passing:.4g} Hz",
         log="y",
         y_limits=(1e-3 * tops.max(), 3.0 * tops.max()),
     )

@@ -75,7 +75,7 @@ def plot_campbell(
         at = np.array([one.speed for one in found])
         marks.append(_points(at / RPM, np.abs(at) / HERTZ, "critical speed", "s", size=8.0))
         forward = [one.speed for one in found if one.whirl == "forward"]
-        marks += [NoteMark(w / RPM, abs(w) / HERTZ, f"{w / RPM:.0f} rpm") for w in forward]
+        marks += [NoteMark(w / RPM, abs(w) / HERTZ, f"{w / RPM:.0f} rpm", clear=True) for w in forward]
     limits = (float(speeds.min()), float(speeds.max()))
     panel = PicturePanel(
         marks,
@@ -334,7 +334,8 @@ def plot_orbit_curves(
             name = "" if event.kind in marked else event.kind.value
             marked.add(event.kind)
             marks.append(_points(event.parameter / scale, event.orbit.amplitude, name, MARKS[event.kind]))
-    text = parameter, "largest distance of the journal from its mean / clearance", "Periodic orbits"
+    amplitude_label = "largest distance of the journal from its mean / clearance"
+    text = parameter, amplitude_label, "Periodic orbits (dashed: unstable)"
     return Picture((PicturePanel(marks, *text),))
 
 
@@ -361,11 +362,11 @@ def plot_basin(scan: analysis.BasinScan, *, clearance: float) -> Picture:
     x, y = (scan.offsets.reshape(2, -1) + scan.rest[:2, None]) / clearance
     whirls, marks = scan.whirls.ravel(), list[Mark]()
     inside = np.hypot(x, y) < 1.0
-    for chosen, color, label in ((whirls, BAD, "into whirl"), (~whirls, GOOD, "to rest")):
+    for chosen, color, label in ((whirls, BAD, "in whirl"), (~whirls, GOOD, "in equilibrium")):
         here = chosen & inside
         marks.append(CurveMark(x[here], y[here], label, color, "", marker="s", size=4.5))
-    marks += [circle(), _points(scan.rest[0] / clearance, scan.rest[1] / clearance, "rest", "+")]
-    text = "x / clearance (load)", "y / clearance", "Where the rotor goes from rest at a position"
+    marks += [circle(), _points(scan.rest[0] / clearance, scan.rest[1] / clearance, "equilibrium", "+")]
+    text = "x / clearance", "y / clearance", "Where a rotor ends that is released at a position"
     return Picture((PicturePanel(marks, *text, equal=True),), size=(6.0, 5.6))
 
 

@@ -91,12 +91,12 @@ def plot_spectrogram(found: analysis.RunSpectra) -> Picture:
         FieldMark(along[order], found.frequency / HERTZ, 1e6 * found.whirl_amplitude[order].T, scale)
     ]
     if np.isfinite(found.speed).all():
-        for turn, color in ((1.0, "w"), (0.5, "C1"), (-1.0, "w")):
+        for turn, color in ((1.0, "#ff5555"), (0.5, "C1"), (-1.0, "#2ca02c")):
             line = turn * found.speed[order] / HERTZ
             marks.append(CurveMark(along[order], line, f"{turn:g}x", color, ":"))
     title = f"Spectrogram, {found.station or 'journal'}"
     text = label, "frequency [Hz], backward < 0 < forward", title
-    return Picture((PicturePanel(marks, *text, legend="none"),), size=(8.0, 5.0))
+    return Picture((PicturePanel(marks, *text, legend="inside"),), size=(8.0, 5.0))
 
 
 def _along(found: analysis.RunSpectra) -> tuple[np.ndarray, str]:

@@ -118,14 +118,14 @@ def plot_limit_summary(atlas: StudyResult) -> Picture:
         names.append(f"{panel.physics}: {panel.title}")
         shares.append((scale([first, last]) - scale(low)) / (scale(high) - scale(low)))
         until = f"{first:.3g}" if first == last else f"{first:.3g} or {last:.3g}"
-        texts.append(f"{panel.x_label}: from {low:.3g} to {until}, of {high:.3g}")
+        texts.append(f"{panel.x_label}: {low:.3g} to {until}; examined to {high:.3g}")
     rows = (FAILS, "no variant", np.ones(len(names))), (DEPENDS, "some", np.array(shares)[:, 1])
     marks: list[Mark] = [
         BarsMark(np.array(names), tops, label, color, across=True)
         for color, label, tops in (*rows, (HOLDS, "all variants", np.array(shares)[:, 0]))
     ]
     marks += [NoteMark(0.0, k - 0.3, text) for k, text in enumerate(texts)]
-    label = "share of the range, of its logarithm where it is tenfold or more"
+    label = "share of the examined range (of its logarithm if it is tenfold or more)"
     whole = PicturePanel(marks, label, "", "Where the error is below 10 %", legend="beside")
     whole = whole._replace(x_limits=(0.0, 1.0), y_limits=(-0.7, len(names) - 0.3))
     return Picture((whole,), size=(12.0, 1.5 + 0.34 * len(names)))

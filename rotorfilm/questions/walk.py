@@ -402,7 +402,7 @@ def all_models(scene: Scene) -> AllModels:
     InputError
         If the scene asks nothing, or something that its tables do not have.
     RotorfilmError
-        If no rung has an answer.
+        If no model has an answer.
     """
     asked = scene.required("question", "a ladder")
     ladder, quantity, tolerance = ladder_of(scene), asked.quantity, asked.tolerance

@@ -257,7 +257,7 @@ class Scene:
         InputError
             If the scene has no question, or one that its tables cannot answer.
         RotorfilmError
-            If no rung has an answer.
+            If no model has an answer.
 
         Warns
         -----

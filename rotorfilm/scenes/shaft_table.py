@@ -502,7 +502,7 @@ class ShaftTable(reading.Taking):
         tilted = [bearing.name for bearing in self.bearings if bearing.tilt is not None]
         if tilted:
             raise InputError(
-                f"tilt of shaft.bearings must be left out for {what}, got it of {', '.join(tilted)}: `run` "
+                f"tilt of shaft.bearings must be left out for {what}, got one for {', '.join(tilted)}: `run` "
                 "follows the orbit with it"
             )
 

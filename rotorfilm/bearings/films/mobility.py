@@ -173,7 +173,7 @@ def mobility_of(law: Law, *, largest: float = 10.0, scale: float = 0.1, cells: i
 
 def require_mobility(mobility: object) -> None:
     """Raise InputError unless this is a mobility or None."""
-    require_kind("mobility", mobility, Mobility | None, "a Mobility, as of mobility_of(...), or None")
+    require_kind("mobility", mobility, Mobility | None, "a Mobility, as mobility_of(...) returns it, or None")
 
 
 def with_mobility(film: Any, mobility: Mobility | None) -> Any:

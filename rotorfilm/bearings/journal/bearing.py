@@ -712,7 +712,7 @@ class BalancedBearing(StaticReaction):
         table = viscosity_table(self.bearing.cooled[0])
         if status == Status.STUCK:
             raise InputError(
-                "housing_conductance must be positive where no oil leaves the film, as of a centered one, "
+                "housing_conductance must be positive if no oil leaves the film, as in a centered bearing, "
                 f"got 0 at position ({state[0]:g}, {state[1]:g}) m"
             )
         if status == Status.OUTSIDE and not table.coldest <= temperature <= table.hottest:

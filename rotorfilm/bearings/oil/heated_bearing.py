@@ -544,8 +544,7 @@ def balance_temperature(heat: FilmHeat, oil: Oil, cooling: Cooling) -> float:
         return _unheated(heat, oil, cooling)
     if not (heat.flow > 0.0 or cooling.housing_conductance > 0.0):
         raise InputError(
-            "housing_conductance must be positive where no oil leaves the film, as of a centered journal, "
-            "got 0"
+            "housing_conductance must be positive if no oil leaves the film, as in a centered bearing, got 0"
         )
     T, carried = cooling.coldest, _carried(heat, oil, cooling)
     for _ in range(_STEPS):

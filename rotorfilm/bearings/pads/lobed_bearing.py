@@ -301,7 +301,7 @@ class LobedBearing(FilmReaction, PadBearing):
     def whole_films(
         self, profile: Callable[[Array], Array]
     ) -> list[tuple[RingKernel, float, tuple[float, float]]] | None:
-        """Return film, angle and center of each lobe over the whole length; None of a film without a grid.
+        """Return film, angle and center of each lobe over the whole length, or None if the film has no grid.
 
         Parameters
         ----------

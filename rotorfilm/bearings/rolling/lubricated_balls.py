@@ -463,7 +463,7 @@ class LubricatedBalls:
         return np.asarray((states @ self.A.T + drive[:, None] * self.B[:, 0]).ravel())
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
-        """Return the exact derivatives; at a kink those of one side."""
+        """Return the exact derivatives; at a kink they are those of one side."""
         at, (*_, by_approach), balls = self._balls(x, u), self._geometry(u), len(self._moves)
         A = np.asarray(np.kron(np.eye(balls), self.A), dtype=float)
         B = np.einsum("ji,k->jki", by_approach, self.B[:, 0]).reshape(-1, 5)

@@ -215,9 +215,7 @@ def test_a_viscosity_field_does_not_step_in_time(tmp_path):
         simulate(rotor, frozen, duration=1e-3)
     with pytest.raises(InputError, match="film must have one viscosity for steps in time and FMUs"):
         export_fmu(frozen, tmp_path / "frozen.fmu")
-    with pytest.raises(
-        InputError, match="temperature must not be set on a film with a"
-    ):
+    with pytest.raises(InputError, match="temperature must not be set on a film with a"):
         frozen.at_temperature(T_S)
 
 
