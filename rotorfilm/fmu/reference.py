@@ -14,7 +14,14 @@ from numpy.typing import ArrayLike
 from scipy.integrate import DOP853, OdeSolver, Radau
 from scipy.linalg import expm
 
-from ..core.errors import ContactError, ConvergenceError, FilmContactError, FmuError, InputError
+from ..core.errors import (
+    ContactError,
+    ConvergenceError,
+    FilmContactError,
+    FmuError,
+    InputError,
+    RotorfilmError,
+)
 from ..core.model import Array, Dynamic, Linearization, Model, Stepped, stops
 from ..core.signals import Scalar, names
 from ..core.sources import offered
@@ -55,9 +62,11 @@ def reference_table(model: Model | Stepped, start: Array, duration: float) -> Ar
     FmuError
         If the model has no outputs over the first step even with its inputs at rest.
     """
-    time = np.linspace(0.0, duration, ROWS)
-    if isinstance(model, MountedRotor) and not model.inputs and (table := _compiled(model, time)) is not None:
-        return table
+    time: Array = np.linspace(0.0, duration, ROWS)
+    if isinstance(model, MountedRotor):
+        time = _within_a_turn(model, start, time)
+        if not model.inputs and (table := _compiled(model, time)) is not None:
+            return table
     nominal = np.array([signal.nominal for signal in model.inputs])
     cycles = np.arange(1, len(nominal) + 1)
     waves = np.sin(2.0 * np.pi * np.outer(time / duration, cycles) + cycles)
@@ -77,14 +86,18 @@ def reference_table(model: Model | Stepped, start: Array, duration: float) -> Ar
     return np.array(best)
 
 
-def _compiled(model: MountedRotor, time: Array) -> Array | None:
-    """Return the table of a rotor on films by its compiled integration; None where that does not take it.
+def _within_a_turn(model: MountedRotor, start: Array, time: Array) -> Array:
+    """Return times up to a turn at the first speed, which takes a shaft of many elements 10 000 steps."""
+    try:
+        first = dict(zip(names(model.outputs), model.output(0.0, model.initial_state, start), strict=True))
+    except RotorfilmError:  # told where the table begins
+        return time
+    speed = abs(float(first.get("speed", 0.0)))
+    return time * min(1.0, 2.0 * np.pi / (speed * time[-1])) if speed else time
 
-    It ends after a turn at the first speed: each takes ten thousand steps of a shaft of many elements.
-    """
-    start = model.output(0.0, model.initial_state, np.zeros(0))
-    speed = abs(float(start[names(model.outputs).index("speed")]))
-    time = time * min(1.0, 2.0 * np.pi / (speed * time[-1])) if speed else time
+
+def _compiled(model: MountedRotor, time: Array) -> Array | None:
+    """Return the table of a rotor on films by its compiled integration; None where that does not take it."""
     settings = {"duration": time[-1], "times": time, "rtol": TOLERANCE, "condensation": 0.0}
     with warnings.catch_warnings(action="ignore"):
         try:

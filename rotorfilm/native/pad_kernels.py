@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ctypes import addressof, byref, c_size_t, c_void_p
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -101,6 +101,18 @@ class TiltingKernel:
         inertia: float = 0.0,
         mass: float = 0.0,
     ) -> None:
+        self._arguments = (
+            film,
+            extent,
+            offset,
+            pivots,
+            preload,
+            clearance,
+            force_scale,
+            spring,
+            inertia,
+            mass,
+        )
         self.film = film
         self.pads = len(pivots)
         self._directions = np.ascontiguousarray(np.stack([np.cos(pivots), np.sin(pivots)], axis=1))
@@ -112,6 +124,9 @@ class TiltingKernel:
         self.states = self.pads * (2 if spring > 0.0 else 1) * (2 if inertia > 0.0 else 1)
         self._reference = byref(self.struct)
         self._last: dict[tuple[float, ...], RestPoint] = {}
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), self._arguments
 
     def at(self, u: Array, x: Array, *, slopes: bool = False) -> TiltingPoint:
         """Return rates and outputs, and if asked for their derivatives, at an input (5,) and a state."""

@@ -81,7 +81,7 @@ def test_a_load_far_beyond_any_force_ends_the_search_at_its_first_start():
         with pytest.raises(rf.EquilibriumError, match="load must be within the film's capacity"):
             rf.equilibrium(own, [0.0, -load], 100.0)
         asked.append(len(calls))
-    assert asked[0] < 0.5 * asked[1]
+    assert max(asked) < 8000  # all starts take 25 000
 
 
 def test_an_answer_without_a_bound_is_json():

@@ -1,6 +1,7 @@
 """Tilting pads at rest: other programs' figures, symmetries, what a journal feels at a frequency."""
 
 import math
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -321,3 +322,15 @@ def test_a_journal_that_one_pad_carries_rests_on_its_axis():
     assert at.pads.unloaded.tolist() == [False, True, True]
     assert at.pads.pad_loads[0] == pytest.approx(9400.0, rel=1e-9)
     assert abs(at.position[0]) < 1e-12 * 6e-5
+
+
+def test_a_bearing_that_was_asked_is_pickled_with_its_equilibrium(tilting):
+    """As to the workers of a sweep."""
+    bearing = tilting(4, 0.5, 75.0, 0.2, cells=(16, 4))
+    at = equilibrium(bearing, [0.0, -0.1 * bearing.force_scale * SPEED], SPEED)
+    twin, same = pickle.loads(pickle.dumps((bearing, at)))
+    assert twin == bearing
+    assert same.position == pytest.approx(at.position, rel=0.0, abs=0.0)
+    assert twin.force(at.position, [0.0, 0.0], SPEED) == pytest.approx(
+        bearing.force(at.position, [0.0, 0.0], SPEED)
+    )
