@@ -145,11 +145,12 @@ class TiltingKernel:
         Force, slopes and pads are asked for one after the other: the last places are remembered.
         """
         key = (*position.tolist(), speed)
-        if key not in self._last:
+        found = self._last.get(key)
+        if found is None:
             if len(self._last) >= REMEMBERED:
                 self._last.clear()
-            self._last[key] = self._rest(position, speed)
-        return self._last[key]
+            found = self._last[key] = self._rest(position, speed)
+        return found
 
     def _rest(self, position: Array, speed: float) -> RestPoint:
         position, pad = _floats(position), c_size_t()
