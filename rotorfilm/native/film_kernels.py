@@ -498,5 +498,5 @@ class OilDamperKernel(ResponseKernel):
             places = _Five(*state), at, at + 3 * row.itemsize
             statuses.append(loops()["rf_oil_damper_mass"](self._reference, *places))
         values = np.concatenate([found[:, :3, None], found[:, 3:].reshape(-1, 3, 4)], axis=2)
-        first = int(np.argmax(statuses))
-        return Batch(np.moveaxis(values, 0, -1), statuses[first], first)
+        worst = max(statuses, default=Status.OK)
+        return Batch(np.moveaxis(values, 0, -1), worst, statuses.index(worst) if statuses else 0)

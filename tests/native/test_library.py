@@ -21,7 +21,7 @@ LARGEST = {
     "rotorfilm_bushes": 60_000,
     "rotorfilm_grids": 162_000,
     "rotorfilm_grid_systems": 172_000,
-    "rotorfilm_heat": 118_000,
+    "rotorfilm_heat": 122_000,
     "rotorfilm_pads": 83_000,
     "rotorfilm_oil": 122_000,
     "rotorfilm_loops": 426_000,

@@ -243,7 +243,7 @@ def test_where_friction_does_not_hold_the_ball_slides_and_its_moment_falls():
 
 def test_sliding_and_numbers_beyond_their_limits_are_told():
     slippery = replace(LADDER, law=RunningBalls(traction_coefficient=0.03, slide_to_roll_ratio=0.001))
-    with pytest.warns(match=r"traction coefficient of 0\.0299, beyond about 0\.027 balls slide"):
+    with pytest.warns(match=r"traction coefficient of 0\.0299; balls slide beyond about 0\.027"):
         slippery.rest((0.0, 0.0, 900.0, 0.0, 0.0), 3e4 * RPM)
     for name, value in (
         ("traction_coefficient", 0.0),

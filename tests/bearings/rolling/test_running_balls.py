@@ -241,7 +241,7 @@ def test_the_steps_of_the_ladder_are_of_the_size_that_is_told():
 
 
 def test_sliding_and_overload_are_told():
-    with pytest.warns(match=r"traction coefficient of 0\.\d+, beyond about 0\.06"):
+    with pytest.warns(match=r"traction coefficient of 0\.\d+; balls slide beyond about 0\.06"):
         CONTROLLED.rest(LOADS[0], 30_000.0 * RPM)
     with pytest.warns(match=r"a ball carries .* N, beyond .* N or 4200 MPa"):
         DEEP.wrench((0.0, -2e-4, 0.0, 0.0, 0.0))
