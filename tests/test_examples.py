@@ -156,7 +156,16 @@ def test_a_user_runs_an_example_in_a_process_of_its_own(tmp_path):
     assert float(done.stdout.split()[-1]) == LAST_NUMBER[path.name]
 
 
-MANY_SECONDS = {"ball_bearing.py", "job_coefficients.py", "job_two_disks.py", "job_machine_fmu.py"}
+MANY_SECONDS = {
+    "ball_on_contact.py",
+    "cold_start.py",
+    "whirl_bifurcation.py",
+    "worn_bush.py",
+    "ball_bearing.py",
+    "job_coefficients.py",
+    "job_two_disks.py",
+    "job_machine_fmu.py",
+}
 RUN_HERE = [pytest.param(path, marks=[pytest.mark.long] * (path.name in MANY_SECONDS)) for path in SCRIPTS]
 
 

@@ -92,6 +92,7 @@ density = 1e3
 FEW = ["--set", "shaft.speeds.count=5"]
 
 
+@pytest.mark.long
 def test_stability_of_a_compressor(run, tmp_path):
     code, out, _ = run("solve", COMPRESSOR, *FEW, "--json", "--out", tmp_path / "out")
     assert code == 0

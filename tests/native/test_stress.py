@@ -224,6 +224,7 @@ def test_no_misuse_and_no_damaged_file_breaks_an_instance(unzipped, stress, tmp_
     assert not fault(stress, token, "200", "--", "--", *maybe)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("made", [grid_bearing, dam_bearing, fed_damper, porous_damper, driven_system])
 def test_no_misuse_and_no_damaged_file_breaks_a_film_or_a_machine(made, unzipped, stress, tmp_path):
     good = unzipped(made(), folder="grid", token="a token").resource

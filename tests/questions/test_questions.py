@@ -37,7 +37,7 @@ SUBSET = [
     ("grooved", 2),
     ("whirl", 6),
     ("orbit", 1),
-    ("orbit", 7),
+    pytest.param("orbit", 7, marks=pytest.mark.long),
     ("orbit", 9),
     ("blade loss", 2),
     ("damper", 5),
