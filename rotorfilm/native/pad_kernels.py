@@ -101,18 +101,8 @@ class TiltingKernel:
         inertia: float = 0.0,
         mass: float = 0.0,
     ) -> None:
-        self._arguments = (
-            film,
-            extent,
-            offset,
-            pivots,
-            preload,
-            clearance,
-            force_scale,
-            spring,
-            inertia,
-            mass,
-        )
+        shape = film, extent, offset, pivots, preload
+        self._arguments = (*shape, clearance, force_scale, spring, inertia, mass)
         self.film = film
         self.pads = len(pivots)
         self._directions = np.ascontiguousarray(np.stack([np.cos(pivots), np.sin(pivots)], axis=1))

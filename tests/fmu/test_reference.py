@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from rotorfilm import ElasticMaterial, FmuError, JournalBearing, mount
+from rotorfilm import ElasticMaterial, FmuError, JournalBearing, LinearBearing, RigidShaft, mount
 from rotorfilm.bearings.journal import MapFilm
 from rotorfilm.fmu import from_state_space
 from rotorfilm.fmu.reference import reference_table, to_csv
@@ -81,3 +81,17 @@ def test_the_table_of_a_rotor_on_films_is_that_of_a_plain_integration():
     expected = np.array([model.output(t, x, np.zeros(0)) for t, x in zip(plain.t, plain.y.T, strict=True)])
     largest = np.abs(expected).max(axis=0)
     assert np.abs(table[:, 1:] - expected).max(axis=0) / largest == pytest.approx(0.0, abs=1e-5)
+
+
+def test_the_table_of_a_rotor_with_inputs_ends_after_a_turn():
+    rotor = RigidShaft(
+        mass=40.0,
+        diametral_inertia=1.2,
+        polar_inertia=0.9,
+        stations=(("left", -0.3), ("right", 0.4)),
+        speed=200.0,
+    )
+    model = mount(rotor, {"left": LinearBearing(stiffness=1e7, damping=1e4)})
+    assert model.inputs
+    table = reference_table(model, np.zeros(len(model.inputs)), 0.1)
+    assert table[-1, 0] == pytest.approx(2.0 * np.pi / 200.0, rel=1e-12)
