@@ -6,6 +6,7 @@ import keyword
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 from .errors import InputError, require_positive
@@ -299,6 +300,7 @@ def force_outputs(
     return signals_of(*rows)
 
 
+@lru_cache(maxsize=1024)
 def signals_of(*rows: tuple[str, str, float, str]) -> tuple[Signal, ...]:
-    """Return signals from rows of name, unit, nominal value and description."""
+    """Return signals from rows of name, unit, nominal value and description; models ask at every step."""
     return tuple(Signal(name=name, unit=unit, nominal=n, description=text) for name, unit, n, text in rows)

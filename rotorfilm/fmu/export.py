@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -291,7 +292,7 @@ class NarrowModel:
     model: Model
     kept: tuple[str, ...]
 
-    @property
+    @cached_property
     def inputs(self) -> tuple[Signal, ...]:
         """The inputs kept."""
         return tuple(self.model.inputs[k] for k in self._places)
@@ -315,12 +316,16 @@ class NarrowModel:
         A, B, C, D = self.model.linearization(t, x, self._widened(u))
         return Linearization(A, B[:, self._places], C, D[:, self._places])
 
-    @property
+    @cached_property
     def _places(self) -> list[int]:
         return indices("model must have the inputs", names(self.model.inputs), self.kept)
 
+    @cached_property
+    def _width(self) -> int:
+        return len(self.model.inputs)
+
     def _widened(self, u: ArrayLike) -> Array:
-        wide = np.zeros(len(self.model.inputs))
+        wide = np.zeros(self._width)
         wide[self._places] = u
         return wide
 

@@ -215,6 +215,7 @@ def test_the_rest_of_a_series_without_a_clearance_tells_the_film_of_its_parts():
     assert_allclose(found.eccentricity_ratio, alone.eccentricity_ratio, rtol=1e-8)
 
 
+@pytest.mark.long
 def test_the_least_film_on_pads_in_a_sprung_body_is_that_of_the_pads():
     pads = TiltingPadBearing(radius=0.05, length=0.05, pad_clearance=1e-4, viscosity=0.02,
                              pivots=(0.8, 2.4, 3.9, 5.5), extent=1.0, preload=0.3)  # fmt: skip
@@ -421,6 +422,7 @@ def test_a_parallel_reaction_rests_with_its_states():
     assert_allclose(still, -load, rtol=1e-9, atol=1e-7)
 
 
+@pytest.mark.long
 def test_motion_of_parallel_reactions_is_that_of_both():
     """A seal beside springs is the seal with these springs."""
     rotor = RigidRotor(mass=20.0, speed=SPEED, gravity=(0.0, 0.0), position=(1e-5, 0.0))

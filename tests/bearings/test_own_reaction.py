@@ -171,6 +171,7 @@ def test_motions_are_those_of_the_bearing_it_wraps():
     assert_allclose(coupled["x"], cosimulate(rotor, SHORT, macro_step=1e-4, duration=2e-3).trajectory["x"])
 
 
+@pytest.mark.long
 def test_springs_and_orbits_take_it_as_a_damper():
     damper = PorousDamper(radius=0.05, length=0.025, clearance=1e-4, viscosity=4e-4)
     own = as_reaction(lambda x, y, vx, vy, w: damper.force((x, y), (vx, vy)), clearance=1e-4, name="damper")

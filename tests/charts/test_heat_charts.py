@@ -100,6 +100,7 @@ def test_the_whole_film_is_one_figure(layered):
     assert [axes.get_figure().get_suptitle() for axes in shown] == ["a film"] * 3
 
 
+@pytest.mark.long
 def test_ladder_has_a_panel_for_each_bearing():
     rungs = tuple(
         StudyRow(

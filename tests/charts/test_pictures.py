@@ -326,6 +326,7 @@ def test_unstable_orbits_over_speed_are_open_dots():
     np.testing.assert_allclose(below.curves["transmissibility"].y, [0.4, 0.6])
 
 
+@pytest.mark.long
 def test_a_backend_is_chosen_once_and_pages_need_no_network(tmp_path):
     use("plotly")
     try:

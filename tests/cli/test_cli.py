@@ -383,6 +383,7 @@ def test_chart_of_dampers_writes_picture_and_tables(run, tmp_path, monkeypatch):
     assert "permeability_number must be finite and positive, got 0.0" in err
 
 
+@pytest.mark.long
 def test_chart_of_heat_writes_pictures_and_tables(run, tmp_path, monkeypatch):
     models = import_module("rotorfilm.studies.heat_accuracy")
     few = {"cases": ladders.HEAT_CASES[:1], "cells": (48, 4), "layers": 4}
@@ -403,6 +404,7 @@ def test_chart_of_heat_writes_pictures_and_tables(run, tmp_path, monkeypatch):
     assert "CPU time [s]" in table[0]
 
 
+@pytest.mark.long
 def test_chart_of_stability_writes_picture_and_table(run, tmp_path, monkeypatch):
     quick = partial(ladders.journal_stability, rungs=FEW, cells=(128, 16), eccentricity_ratio=(0.3, 0.6, 0.9))
     monkeypatch.setattr(ladders, "journal_stability", quick)

@@ -21,6 +21,7 @@ def short(tmp_path_factory):
     return path
 
 
+@pytest.mark.long
 def test_numbers_are_those_of_the_library_and_files_come_along(run, short, tmp_path):
     code, out, _ = run("solve", short, "--json", "--out", tmp_path / "out")
     assert code == 0
@@ -56,6 +57,7 @@ def test_numbers_are_those_of_the_library_and_files_come_along(run, short, tmp_p
     assert [float(row[column]) for row in rows] == pytest.approx(found["amplitudes"]["small_x"], rel=1e-8)
 
 
+@pytest.mark.long
 def test_people_read_rpm(run, short):
     code, out, _ = run("solve", short)
     assert code == 0

@@ -14,6 +14,7 @@ pytest.importorskip("h5netcdf")
 SHORT = Path(__file__).parents[2] / "examples" / "short.toml"
 
 
+@pytest.mark.long
 def test_a_sweep_becomes_netcdf(run, tmp_path):
     out = tmp_path / "out.nc"
     vary = [

@@ -46,6 +46,7 @@ def test_the_chart_has_every_tier_and_every_line(tiers):
     assert len(tiers.columns()["tier"]) == len(tiers.rungs)
 
 
+@pytest.mark.long
 def test_the_command_writes_chart_and_tables(tiers, monkeypatch, tmp_path, capsys):
     monkeypatch.setattr("rotorfilm.studies.bush_tiers", lambda report: tiers)
     for more in ([], ["--json"]):

@@ -160,6 +160,7 @@ def test_cases_become_a_table_curves_and_figures(made_up, tmp_path):
     assert save(axes[0], tmp_path / "cases.png").stat().st_size > 50_000
 
 
+@pytest.mark.long
 def test_cases_run_by_a_plan(monkeypatch):
     # All that a case takes from a solution, on a grid so coarse that it costs nothing.
     monkeypatch.setattr(cases, "statements", lambda runs, solution: [])
@@ -174,6 +175,7 @@ def test_cases_run_by_a_plan(monkeypatch):
     assert told == sorted(told)
 
 
+@pytest.mark.long
 @pytest.mark.literature
 def test_the_published_scheme_contradicts_figures_6_and_7():
     # Its text has amplitudes that fall with W, and omega = 2 with the largest.
@@ -216,6 +218,7 @@ def test_published_step_halves_the_travelling_film_and_hides_the_decay():
     assert times["Euler", 1.0, "wave"] < 0.8 * times["BDF2", 1.0, "wave"]
 
 
+@pytest.mark.long
 @pytest.mark.closed_form
 def test_limits_are_those_of_the_scheme(monkeypatch):
     monkeypatch.setattr(limits, "SPAN", 1.0)

@@ -22,6 +22,7 @@ def result():
     return heat_accuracy((TEXTBOOK,), cells=(96, 8), layers=14)
 
 
+@pytest.mark.long
 @pytest.mark.literature
 def test_all_models_of_a_bearing(result):
     """The demonstration's bearing of an independent code in numpy, on 120 x 8 cells and 12 layers."""

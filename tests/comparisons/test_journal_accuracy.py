@@ -123,6 +123,7 @@ def test_short_film_errs_as_documented():
     assert np.quantile(error, 0.9) == pytest.approx(0.28, abs=0.08)
 
 
+@pytest.mark.long
 def test_errors_rank_the_rungs(result):
     rung = by_name(result)
     assert rung["map"]["99 % error [1]"] < result.conditions["reference error, 99 % [1]"] + 2e-5

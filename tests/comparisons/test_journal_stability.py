@@ -100,6 +100,7 @@ def short_force(eps, g_s, g_c):
     return -np.array([moment(1, 1) * g_s + moment(0, 2) * g_c, moment(2, 0) * g_s + moment(1, 1) * g_c])
 
 
+@pytest.mark.long
 @pytest.mark.closed_form
 def test_short_film_has_the_thresholds_of_ocvirks_force(rung):
     short = rung["short film"][PARAMETER][:3]
@@ -116,6 +117,7 @@ def test_published_film_has_the_thresholds_of_the_published_formulas(rung):
     assert exact[2] ** 2 == pytest.approx(3.81, abs=0.005)
 
 
+@pytest.mark.long
 def test_converged_films_agree_with_another_method():
     # The rungs solve for the pressure by Ritz's method, the splitting method for the flux by Galerkin's.
     arcs = {"fixed": FixedArc(), "rotating": RotatingArc(), "free": ComplementarityArc()}

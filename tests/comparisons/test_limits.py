@@ -189,6 +189,7 @@ def failing(panel, part):
     return [atlas.failure(*curve, FAILED) for name, curve in curves(panel).items() if part in name]
 
 
+@pytest.mark.long
 def test_limits_of_a_damper_are_as_documented():
     # docs/charts.md, to the digits that it gives
     lengths = {of: failing(atlas.damper_length, of) for of in ("solid", "porous")}
@@ -215,6 +216,7 @@ def test_limits_of_the_published_models_of_a_bush_are_as_documented():
     assert all(1.01 <= load <= 1.02 for load in loads)
 
 
+@pytest.mark.long
 def test_a_film_as_cold_as_its_supply_fails_where_the_oil_thins():
     # docs/charts.md
     cold, balance, bush = curves(atlas.heat_rise).values()
@@ -236,6 +238,7 @@ def test_cases_of_heat_have_their_numbers():
     assert case.speed * 75e-6**2 * capacity / oil.conductivity == pytest.approx(50.0)
 
 
+@pytest.mark.long
 def test_atlas_names_the_abscissa_of_every_curve():
     found = limits_atlas(["damper"])
     columns = found.columns()

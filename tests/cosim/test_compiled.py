@@ -94,6 +94,7 @@ def test_a_ramp_of_the_speed_stops_at_its_kinks(pair):
     assert distance(*runs) < 1e-9  # the rotor's integration
 
 
+@pytest.mark.long
 def test_a_rotor_that_is_not_linear_is_integrated_in_python(compiled, outcome):
     shaft = RigidShaft(
         mass=60.0,

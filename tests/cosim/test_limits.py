@@ -107,6 +107,7 @@ def test_critical_macro_step_by_runs(eccentricity, scheme, degrees):
     assert_allclose(np.degrees(found * 157.0), degrees, rtol=0.02)
 
 
+@pytest.mark.long
 def test_a_light_journal_shortens_the_limit_in_proportion():
     for scheme in (GaussSeidel(), Jacobi(degree=1)):
         limits = []
@@ -224,6 +225,7 @@ def test_delay_lowers_the_whirl_threshold_and_si_exp3_does_not(nondimensional):
         assert abs(threshold_shift(nondimensional, SIExp3(), degrees)) < 1e-9
 
 
+@pytest.mark.long
 def test_a_whirl_that_the_delay_drives_is_seen_in_runs(nondimensional):
     """Just below the threshold a held force makes the orbit grow, SI-exp3 lets it decay."""
     case = nondimensional(0.6, w=0.998 * whirl_threshold(nondimensional))

@@ -185,6 +185,7 @@ def shaft_on_two_films():
     return shaft, films
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("scheme", [GaussSeidel(), SIExp3(), Newton()], ids=labelled)
 def test_several_films_on_one_rotor_are_the_monolithic_system(scheme):
     shaft, films = shaft_on_two_films()

@@ -98,6 +98,7 @@ def test_libcosim_moves_a_rotor_as_its_closed_form(cosim, tmp_path):
     np.testing.assert_allclose([x, vx], [2e-5 + 0.5 * 0.4 * 0.05**2, 0.4 * 0.05], rtol=1e-11)
 
 
+@pytest.mark.long
 def test_libcosim_warms_a_film_as_simulate(cosim, tmp_path):
     execution_of, slave_of, observer_of = cosim
     cooling = Cooling(supply_temperature=310.25, bush_heat_capacity=20.0)

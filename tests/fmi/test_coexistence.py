@@ -5,6 +5,7 @@ import sys
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from rotorfilm import JournalBearing
 from rotorfilm.bearings.journal import MapFilm, ShortFilm
@@ -59,6 +60,7 @@ def test_two_instances_of_one_fmu_do_not_share_values(load, tmp_path):
     assert second.get("bearing.x") == [1e-5]
 
 
+@pytest.mark.long
 def test_many_instances_neither_crash_nor_share(load, tmp_path):
     path = export_fmu(BEARING, tmp_path / "a.fmu", backend="python", component="bearing")
     instances = [load(path) for _ in range(20)]

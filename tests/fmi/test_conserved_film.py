@@ -180,6 +180,7 @@ with open_fmu(film) as fmu:
 """
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL")
 def test_a_run_goes_on_after_its_process_was_killed(film, tmp_path):
     with open_fmu(film) as fmu:

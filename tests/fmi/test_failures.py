@@ -137,6 +137,7 @@ def test_other_instances_go_on(film, load, tmp_path):
     np.testing.assert_allclose(other.get(*FORCES), EXPECTED, rtol=1e-12)
 
 
+@pytest.mark.long
 def test_many_failures_neither_crash_nor_leak(load, tmp_path):
     path = export_fmu(BEARING, tmp_path / "film.fmu", backend="python", component="counted")
     film = load(path)

@@ -235,6 +235,7 @@ def test_equal_models_give_equal_bytes(model, version, tmp_path):
     assert len(tokens) == 2
 
 
+@pytest.mark.long
 def test_another_process_builds_the_same_bytes(tmp_path):
     script = (
         "import sys\nfrom rotorfilm import JournalBearing, MapFilm, export_fmu\n"
@@ -249,6 +250,7 @@ def test_another_process_builds_the_same_bytes(tmp_path):
     assert here.read_bytes() == (tmp_path / "b.fmu").read_bytes()
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="the options are those of gcc and clang")
 @pytest.mark.parametrize(("model", "version"), [(ROTOR, "2.0"), (BEARING, "3.0")])
 def test_an_fmu_can_be_compiled_from_its_own_sources(model, version, tmp_path):

@@ -26,6 +26,7 @@ def values(answer):
     return np.array([answer[signal.name] for signal in MODEL.outputs])
 
 
+@pytest.mark.long
 def test_the_file_is_valid_and_passes_the_checks(film):
     assert validate_fmu(str(film)) == []
     assert [item for item in check_fmu(film) if item.passed is False] == []
@@ -79,6 +80,7 @@ def test_a_state_is_restored_to_the_last_bit(film):
                 other._instance.restore(other._instance.deserialize(wrong))
 
 
+@pytest.mark.long
 def test_a_step_that_fails_is_discarded_and_may_be_tried_again(film):
     with open_fmu(film) as fmu:
         fmu.start({"z": -1.8})

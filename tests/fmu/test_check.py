@@ -199,6 +199,7 @@ def second(tmp_path):
     return export_fmu(BEARING, tmp_path / "film.fmu", component="film", start=STATE)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("part", [0.0, 0.001, 0.3, 0.9])
 def test_a_library_that_is_cut_off_is_noticed_before_it_is_loaded(second, part):
     spoiled = changed(second, LIBRARY, lambda content: content[: int(part * len(content))])

@@ -37,6 +37,7 @@ PLAIN = st.recursive(
 )
 
 
+@pytest.mark.long
 @given(PLAIN)
 def test_plain_values_come_back_equal(value):
     assert through_json(value) == value

@@ -75,6 +75,7 @@ def test_equal_models_give_equal_bytes(tmp_path):
     assert first == second
 
 
+@pytest.mark.long
 def test_another_process_builds_the_same_bytes(tmp_path):
     bearing = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
     here = export_fmu(bearing, tmp_path / "a.fmu", backend="python", component="bearing")
@@ -100,6 +101,7 @@ def test_the_guid_changes_with_the_content(change, tmp_path):
     assert fmpy.read_model_description(str(first)).guid != fmpy.read_model_description(str(second)).guid
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("model", [MAP, SHORT], ids=["map", "short"])
 def test_the_fmu_needs_neither_this_package_nor_its_own_folder(model, tmp_path):
     path = export_fmu(model, tmp_path / "a.fmu", backend="python", component="bearing")

@@ -79,6 +79,7 @@ def test_the_temperature_is_that_of_the_model(film, version, tmp_path):
         assert told[names[name]] == pytest.approx(outputs, rel=1e-8)
 
 
+@pytest.mark.long
 @films
 def test_temperatures_are_those_of_simulate(film, tmp_path):
     """A rotor of so much mass that it stays where it is: the same inputs, by an integrator of its own."""
@@ -103,6 +104,7 @@ def test_temperatures_are_those_of_simulate(film, tmp_path):
     np.testing.assert_allclose(told["film.power_loss"], motion["power_loss"], rtol=1e-9)
 
 
+@pytest.mark.long
 @films
 def test_a_c_host_gets_the_temperature_over_an_orbit(film, tmp_path):
     """Inputs that change from step to step, each step against a tight integration of the model in Python."""
@@ -136,6 +138,7 @@ def test_a_c_host_gets_the_temperature_over_an_orbit(film, tmp_path):
     np.testing.assert_allclose(told, expected, rtol=1e-10)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("version", ["2.0", "3.0"])
 def test_a_bearing_with_openings_is_native_and_passes_all_checks(version, tmp_path):
     path = export_fmu(bearing(COARSE), tmp_path / "warm.fmu", version, component="film", start=START)
@@ -146,6 +149,7 @@ def test_a_bearing_with_openings_is_native_and_passes_all_checks(version, tmp_pa
     assert bearing(COARSE).in_time().native().kernel == "heated_grooved_journal"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "value", "rule"),
     [("carry_over", 1.5, "carry_over must be from 0 to 1"), ("length", 0.04, "length/diameter must be that")],
@@ -157,6 +161,7 @@ def test_what_the_map_does_not_hold_for_is_refused(name, value, rule, tmp_path, 
     assert rule in capsys.readouterr().out
 
 
+@pytest.mark.long
 def test_a_turbulent_film_warms_in_an_fmu_through_pythonfmu(tmp_path):
     """A density of 1e5 kg/m3 makes this small bearing turbulent."""
     film = bearing(ReynoldsFilm(cells=(16, 4)))

@@ -54,6 +54,7 @@ def test_finite_escape_time_is_approached_accurately():
     assert advance(BlowUp(), 0.0, np.array([1.0]), np.zeros(0), 0.99)[0] == pytest.approx(100.0, rel=1e-7)
 
 
+@pytest.mark.long
 def test_beyond_the_escape_time_there_is_an_error_with_the_state_reached():
     with np.errstate(all="ignore"), pytest.raises(ConvergenceError, match=r"must reach t = 1\.5 s") as caught:
         advance(BlowUp(), 0.0, np.array([1.0]), np.zeros(0), 1.5)

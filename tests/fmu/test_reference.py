@@ -57,6 +57,7 @@ def test_csv_reads_back_exactly():
     np.testing.assert_array_equal(np.loadtxt(lines, delimiter=","), table)
 
 
+@pytest.mark.long
 def test_the_table_of_a_rotor_on_films_is_that_of_a_plain_integration():
     steel = ElasticMaterial(young_modulus=2.1e11, shear_modulus=8.1e10, density=7800.0)
     rotor = ShaftRotor(

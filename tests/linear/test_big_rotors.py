@@ -286,6 +286,7 @@ def test_critical_speeds_are_roots_of_the_whole_rotor(rotor):
     assert_allclose(forward, mapped, rtol=1e-7)
 
 
+@pytest.mark.long
 def test_critical_speeds_of_coarse_steps_are_those_of_fine_ones(monkeypatch):
     """Steps are halved until all is proven. All coordinates are solved a few times per critical speed."""
     rotor = long_rotor(30)

@@ -395,6 +395,7 @@ def test_motions_on_tilting_pads_are_those_of_one_system_with_the_pads():
     assert modes.work["factorizations"] < 3 * len(modes.eigenvalues)
 
 
+@pytest.mark.long
 def test_a_threshold_follows_its_whirl():
     plain = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.05, film=ShortFilm())
     bearings = {"left": plain, "right": plain}

@@ -206,6 +206,7 @@ def test_681_overhung_in_bearings_and_supports(speed, left, right, printed):
     assert_allclose(found[order], wanted, atol=0.0015)
 
 
+@pytest.mark.long
 def test_691_critical_speeds():
     """User guide, example 25 (after example 6.9.1), rpm, two decimals: case 5 at both bearings."""
     model, bearing = overhung_681(), bearing_681(5)

@@ -67,6 +67,7 @@ def test_a_mounted_rotor_has_the_temperatures_as_states():
     assert names[-2:] == ["left_temperature", "right_temperature"]
 
 
+@pytest.mark.long
 def test_in_time_the_film_warms_and_keeps_its_temperature_in_vibration():
     cooling = Cooling(supply_temperature=310.25, bush_heat_capacity=300.0)
     run = simulate(RigidRotor(mass=50.0, speed=SPEED), bearing(cooling=cooling), duration=0.15, samples=151)

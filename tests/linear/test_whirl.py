@@ -83,6 +83,7 @@ def test_speed_is_the_border_between_decay_and_growth(bearing):
     assert masses[0.99] > MASS > masses[1.01]
 
 
+@pytest.mark.long
 @settings(max_examples=10, deadline=None)
 @given(turn=st.floats(-math.pi, math.pi))
 def test_direction_of_the_load_does_not_matter(bearing, turn):

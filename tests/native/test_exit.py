@@ -76,6 +76,7 @@ def run(script, path, environment):
     return subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
 
 
+@pytest.mark.long
 def test_the_process_survives_its_end_with_any_host_in_python(path, late):
     ran = run(SIMULATE, path, late)
     assert ran.returncode == 0, ran.stderr

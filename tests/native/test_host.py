@@ -86,6 +86,7 @@ def test_the_wall_is_told_in_the_log(unzipped, host):
         run(host, 2, folder, ("x",), ("force_x",), np.array([[0.0, 1e-5], [1e-3, 2e-4]]))
 
 
+@pytest.mark.long
 def test_the_turbocharger_on_its_damper_moves_in_fmpy_and_in_the_host_as_the_simulation(
     unzipped, host, tmp_path
 ):

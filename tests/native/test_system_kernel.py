@@ -203,6 +203,7 @@ def reference(system, end, tolerance=1e-12):
     return x
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", [FMU2Slave, FMU3Slave])
 @pytest.mark.parametrize("steps", [2, 60])
 def test_steps_follow_an_independent_integration(unzipped, kind, steps):

@@ -31,6 +31,7 @@ def rungs(*args, **kwargs):
     return {report.name: report for report in ladder(*args, **kwargs).ask().rungs}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", SEEDS)
 def test_estimate_is_within_a_factor_of_two_and_the_tolerance_is_met(seed):
     drawn = FAMILIES["ball bearing"][1](np.random.default_rng(seed))

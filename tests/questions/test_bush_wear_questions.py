@@ -144,6 +144,7 @@ def test_a_load_that_falls_needs_nodes_and_one_that_grows_does_not():
     assert all("nodes" in rung.name for ladder in (falls, pulse) for rung in ladder.rungs)
 
 
+@pytest.mark.long
 def test_a_pulse_of_load_wears_as_many_nodes_say():
     pulsed = scene(0.02, excitation=step(-1500.0, start=0.05, end=0.1))
     answer, truth = pulsed.ask(), wear_by_nodes(pulsed)
@@ -216,6 +217,7 @@ def test_scenes_without_a_wear_are_refused(tables, message):
         scene(**tables).ask()
 
 
+@pytest.mark.long
 def test_impossible_durations_and_worn_out_bushes_are_refused():
     with pytest.raises(SceneError, match=r"operation.duration must be finite and positive, got -1.0"):
         scene(operation={"duration": -1.0})

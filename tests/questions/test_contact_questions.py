@@ -153,6 +153,7 @@ def test_linearized_film_is_the_slope_of_the_film_at_rest():
     )
 
 
+@pytest.mark.long
 def test_slow_sine_is_answered_at_rest_and_agrees_with_the_film_over_time():
     scene = scene_of("central_film", 0.1, SINE.format("10 N", 60.0), mass=1e-3)
     shaken = contact_motion(scene)
@@ -221,6 +222,7 @@ def test_what_cannot_shake_a_ball_is_refused(excitation, message):
         scene_of("approach", 0.1, excitation).ask()
 
 
+@pytest.mark.long
 def test_load_that_lifts_the_ball_is_in_doubt_for_the_law_and_at_rest():
     scene = scene_of("approach", 0.1, SINE.format("60 N", 1000.0))
     films, shaken = StaticContactFilms(table=scene.contact, quantity="approach"), contact_motion(scene)
@@ -277,6 +279,7 @@ def test_what_is_left_out_is_told():
     assert ladder_of(scene.with_tables(contact=mild)).remarks == ()
 
 
+@pytest.mark.long
 def test_shipped_scene_is_met():
     scene = Scene.load(Path(__file__).parents[2] / "examples" / "ball_step.toml")
     answer = scene.ask()

@@ -304,6 +304,7 @@ def test_no_jump_is_made_up_beyond_the_reach_of_a_map():
         found.ask()
 
 
+@pytest.mark.long
 @pytest.mark.literature
 def test_jumps_of_the_solid_film_are_those_of_the_notes():
     found = scene('film = {name = "short"}\n', JUMPS)
@@ -377,6 +378,7 @@ def test_remarks_name_what_is_left_out():
     assert topics(replace(pi, viscosity=0.5), 20.0, 3000.0, 0.9) >= {"heat", "compressibility", "cavitation"}
 
 
+@pytest.mark.long
 def test_shipped_scene_meets_its_tolerance_without_a_warning():
     from rotorfilm.scenes import Scene
 

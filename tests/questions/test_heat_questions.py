@@ -216,6 +216,7 @@ def test_what_is_left_out_beyond_the_tolerance_is_told_beside_it():
     assert loose.within == "isothermal films; but compressibility (up to 104%) is left out"
 
 
+@pytest.mark.long
 def test_temperatures_are_judged_by_their_rise():
     mean, peak = plain("temperature").ask(), plain("maximum_temperature").ask()
     assert mean.met
@@ -252,6 +253,7 @@ def test_whirl_threshold_has_the_temperature_of_each_speed_and_the_error_of_movi
     assert all(one.error_estimate > 0.03 for one in answer.rungs if one.error_estimate is not None)
 
 
+@pytest.mark.long
 def test_assumed_figures_are_named_with_what_they_move():
     answer = plain("eccentricity_ratio").ask()
     second = next(line for line in answer.assumptions if "at 100 degC" in line)

@@ -85,6 +85,7 @@ def test_many_forces_are_worth_a_coarse_map_and_few_are_not(revolutions):
     assert (coarse < grid) == (revolutions == 10)
 
 
+@pytest.mark.long
 def test_named_map_is_a_coarse_one_where_its_bound_is_enough(cache):
     scene = scene_of("stiffness", 0.2, film='film = { name = "map" }')
     answer = scene.ask()

@@ -233,6 +233,7 @@ def test_motions_on_lobes_agree_with_the_top_of_their_ladder(quantity, rotor, ex
     assert len(ladder.rungs) in (4, 6)
 
 
+@pytest.mark.long
 def test_static_questions_make_no_map_and_one_that_is_there_answers_within_its_bound(cache):
     first = asked(LOBED, "eccentricity_ratio", 0.2).ask()
     assert first.model == "2-D 48 x 4 extr."
@@ -308,6 +309,7 @@ def on_oil(table):
     return table.replace('viscosity = "20 mPa s"\n', "")
 
 
+@pytest.mark.long
 @TABLES
 @pytest.mark.parametrize("quantity", ["temperature", "power_loss"])
 def test_pads_on_an_oil_are_as_warm_as_their_balance(table, quantity):
@@ -376,6 +378,7 @@ def test_small_orbits_on_tilting_pads_are_those_of_synchronous_coefficients():
     assert answer.error_estimate < 0.01 / 1.5
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("on_one_map")
 def test_orbits_on_tilting_pads_are_those_in_time():
     table = TILTING.replace("pad_count = 5", "pad_count = 4").replace("on_pad", "between_pads")

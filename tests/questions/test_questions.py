@@ -313,6 +313,7 @@ tolerance = {tolerance}
 """
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 @pytest.mark.parametrize("family", ["fed", "pads"])
 def test_bearings_with_openings_of_every_kind_are_answered(family):

@@ -96,6 +96,7 @@ def test_ground_under_springs_beside_an_exact_march(sealed):
     assert error < 2.0 * answer.error_estimate + 1e-5
 
 
+@pytest.mark.long
 @pytest.mark.regression
 def test_a_run_up_on_films_beside_the_whole_rotor():
     scene = asked(1e-3, RUN_UP, unbalances=[])

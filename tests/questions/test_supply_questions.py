@@ -72,6 +72,7 @@ def test_place_of_a_loaded_journal_is_answered_by_rupture():
     assert [rung.name for rung in answer.rungs][-1] == "JFO 288 x 24"
 
 
+@pytest.mark.long
 @pytest.mark.literature
 def test_threshold_of_whirl_by_conserved_oil():
     # Top groove, ambient, So .5: M c speed^2/W = 6.08 by an independent program, Reynolds 20 % more.
@@ -99,6 +100,7 @@ def test_orbit_has_the_conservation_of_oil_in_its_estimate_and_says_so():
         scene_of(HOLE + '\nfilm = { name = "jfo" }', quantity="unbalance_amplitude", further=rotor).ask()
 
 
+@pytest.mark.long
 def test_temperature_of_a_film_fed_by_a_hole_is_that_of_its_own_flow():
     oil = '\n[lubricant]\ngrade = "ISO VG 32"\nsupply_temperature = "45 degC"'
     film = HOLE.replace("viscosity = 0.02\n", "") + '\nfilm = { name = "jfo", cells = [24, 4] }'

@@ -86,6 +86,7 @@ def test_stiffness_and_threshold_follow_the_tilt():
     assert close.value == pytest.approx(found.speed, rel=5e-3)
 
 
+@pytest.mark.long
 def test_a_map_of_tilts_answers_where_it_is_there(monkeypatch):
     coarse = tilt_map.kernel_of(tilt_map.TiltMap(1.0, (48, 4)).built())
     monkeypatch.setattr(tilted_films, "has_tilt_map", lambda slenderness: True)
@@ -145,6 +146,7 @@ def shaft(quantity, tolerance, keys, more=""):
     )
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("without_map")
 def test_the_threshold_of_a_sagging_shaft_chooses_its_level():
     """About the sagged equilibrium of the note's rotor it is 219.1 rad/s by another code."""

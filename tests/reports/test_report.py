@@ -70,6 +70,7 @@ def bearing():
     )
 
 
+@pytest.mark.long
 def test_a_report_has_inputs_as_read_results_verdicts_and_its_scene(rotor):
     headings = [part.heading for part in rotor.sections]
     assert headings[:4] == ["Summary", "Machine", "Inputs", "Assumptions and effects left out"]

@@ -265,7 +265,7 @@ def test_damping_along_the_axis_and_about_it_is_proportional(steel):
         replace(rotor, elements=(replace(joint, axial_stiffness=None), piece))
 
 
-@pytest.mark.parametrize("elements", [3, 40])
+@pytest.mark.parametrize("elements", [3, pytest.param(40, marks=pytest.mark.long)])
 def test_motion_that_no_bearing_touches_changes_no_analysis(steel, elements):
     rotor, planar = shaft(steel, elements, **BEYOND), shaft(steel, elements)
     at = [rf.rotor_equilibrium(one, SPRINGS, SPEED) for one in (rotor, planar)]
@@ -336,6 +336,7 @@ def test_rotors_around_a_shaft_keep_its_further_freedoms(steel):
         replace(driven, rotor=rotor)
 
 
+@pytest.mark.long
 def test_a_rotor_that_moves_along_its_axis_runs_in_time_as_one_that_does_not(steel):
     stations = (Station(node=0, name="left"), Station(node=2))
     planar = shaft(steel, 2, stations=stations, beam=ClassicalBeam())

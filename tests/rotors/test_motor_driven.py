@@ -45,6 +45,7 @@ def jeffcott(**changes):
     return JeffcottRotor(**(values | changes))
 
 
+@pytest.mark.long
 def test_motion_is_that_of_the_mass_center_and_its_moments():
     rotor = MotorDrivenRotor(rotor=rigid(), inertia=0.02, torque=MOTOR)
     times = np.linspace(0.0, 0.1, 11)
@@ -152,6 +153,7 @@ def test_a_rotor_hangs_at_its_critical_speed_where_whirl_takes_all_of_the_torque
     assert rate[2:4] == pytest.approx(-(hang**2) * np.array(x[:2]), rel=1e-9)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("stall", [0.3, 3.0], ids=["weak", "strong"])
 def test_a_weak_motor_stays_at_the_critical_speed_and_a_strong_one_passes_it(stall):
     driven, springs, critical, surplus = whirling(stall)

@@ -177,6 +177,7 @@ def test_linearization_with_states_against_differences_of_fourth_order():
         assert np.abs((change - slope * steps) / scale).max() < 1e-6
 
 
+@pytest.mark.long
 def test_a_bush_moves_the_same_whether_it_is_mounted_or_coupled():
     """`simulate` has its own way of coupling a film with states: the other bearing is mounted then."""
     rotor, worn, spring = on_a_bush()

@@ -116,6 +116,7 @@ def lines_changed(copy):
     return count
 
 
+@pytest.mark.long
 def test_a_family_is_one_folder_and_a_line(answered):
     assert 0 < answered[1] <= MOST_LINES
 

@@ -108,6 +108,7 @@ def test_rungs_without_and_with_inertia_short_and_finite():
     assert [rung.name for rung in tight.rungs] == names[2:]
 
 
+@pytest.mark.long
 def test_answer_is_the_orbit_of_the_library_and_estimates_tell_what_each_rung_leaves_out():
     found = scene(FULL + SEALS)
     film = SqueezeFilmDamper(

@@ -66,6 +66,7 @@ def test_a_mistake_is_named(old, new, message):
         parse_scene(TEXT.replace(old, new), "x.toml")
 
 
+@pytest.mark.long
 def test_a_response_beyond_the_loads_of_its_law_is_that_of_a_law_about_a_larger_load():
     # A warning is an error here: the law about the load of the test leaves its range.
     case = ContactCase(PointContact(V=0.1, Q0=5.0, grid=ContactGrid(cells=(40, 40))), 1.0)

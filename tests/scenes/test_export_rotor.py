@@ -86,6 +86,7 @@ def test_steady_rotor_is_the_rotor(speed):
     assert len(C) == len(steady.outputs)
 
 
+@pytest.mark.long
 def test_its_signals_are_those_of_the_stations(reduction, folder):
     variables = {v.name: v for v in fmpy.read_model_description(str(folder / "rotor.fmu")).modelVariables}
     for name in FILMS:
@@ -163,6 +164,7 @@ def spectral_radius(steady, at, step):
     return np.abs(np.linalg.eigvals(whole[:-3, :-3])).max()
 
 
+@pytest.mark.long
 @pytest.mark.convergence
 def test_three_fmus_move_as_the_monolithic_model(reduction, folder):
     """Below the critical macro step, 4.35 us here, the error is small and of first order."""
@@ -229,6 +231,7 @@ def test_without_bearings_it_begins_straight(tmp_path):
     assert len(SteadyRotor(rotor=moved).states) == len(small.states) + 3
 
 
+@pytest.mark.long
 @pytest.mark.closed_form
 def test_scene_becomes_one_fmu_of_rotor_and_bearings_that_moves_as_the_model(tmp_path):
     """After an eighth of a turn under its unbalance it is where Radau takes the model."""

@@ -232,6 +232,7 @@ def test_vibration_is_about_the_place_at_rest_and_its_speed_is_told():
     assert abs(run.peaks["disk"] - run.at_rest["disk"]) < run.vibrations["disk"] < run.peaks["disk"]
 
 
+@pytest.mark.long
 def test_a_run_with_too_few_samples_a_turn_says_so(monkeypatch):
     monkeypatch.setattr(rotor_runs, "FEWEST", 11)
     monkeypatch.setattr(rotor_runs, "MOST", 21)

@@ -141,6 +141,7 @@ def test_every_key_arrives_in_its_unit():
     assert film == JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore:speeds should be below the threshold")
 def test_the_answer_is_that_of_the_library():
     excitation = '[excitation]\nkind = "unbalance"\nunbalance = "500 g mm"\nnode = 2\n'
@@ -236,6 +237,7 @@ def test_the_default_element_is_the_fourth_order_one():
     assert scene(HEAD, SHAFT, SPEEDS, SPRINGS).shaft.beam == FourthOrderBeam()
 
 
+@pytest.mark.long
 @pytest.mark.closed_form
 def test_a_peak_between_the_speeds_is_not_missed():
     # Each resonance is as high as on a grid a hundred times finer.
@@ -342,6 +344,7 @@ def test_a_compressor_names_its_supports():
 ASKED = '[question]\nquantity = "critical_speed"\ntolerance = "1 %"\n'
 
 
+@pytest.mark.long
 def test_a_seal_holds_a_shaft_and_moves_along():
     stiff = SPRINGS.replace("1 MN/m", "20 MN/m").replace("800 kN/m", "20 MN/m")
     given = scene(HEAD, SHAFT.replace("50 mm", "90 mm"), DISKS, SPEEDS, stiff, SEAL, ASKED)

@@ -166,6 +166,7 @@ def test_heat_is_a_ladder_of_fresh_oil_and_its_balance():
     assert "a share of 0 is carried to the next pad" in answer.assumptions[0]
 
 
+@pytest.mark.long
 def test_temperature_is_that_of_the_oil_that_leaves():
     answer = scene_of(TILTING, LOAD, RUN, OIL, 'housing_conductance = "5 W/K"\n', asked="temperature").ask()
     table = scene_of(TILTING, LOAD, RUN, OIL, 'housing_conductance = "5 W/K"\n').thrust
@@ -229,6 +230,7 @@ def test_a_thrust_bearing_belongs_to_a_shaft_with_its_load():
     assert {name: amplitude_unit(name) for name in named} == named
 
 
+@pytest.mark.long
 def test_the_answer_of_a_shaft_tells_loads_across_it_and_moments_apart():
     """On stiff supports the forces across the shaft are its weight; a collar has no load across."""
     given = parse_scene(LOADED, "case.toml")

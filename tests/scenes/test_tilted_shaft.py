@@ -50,6 +50,7 @@ def test_a_bearing_of_a_scene_feels_the_tilt(tmp_path):
     assert held.minimum_film(place) < 1e-4 - np.hypot(*moved[:2])
 
 
+@pytest.mark.long
 def test_the_modes_of_a_scene_are_those_with_moments(tmp_path):
     """Against the rotor in Python; moments move the whirls, so they are not lost on the way."""
     given = scene(tmp_path, both='tilt = "closed_form"\n')

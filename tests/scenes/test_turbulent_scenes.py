@@ -244,6 +244,7 @@ def test_a_turbulent_shaft_answers_with_its_numbers_and_the_closure_in_the_estim
     assert "; closure, " in answer.rungs[0].method
 
 
+@pytest.mark.long
 def test_a_laminar_shaft_above_the_onset_meets_no_tolerance_and_knows_its_error():
     further = QUESTION.format(quantity="unbalance_amplitude", tolerance=90)
     laminar, own = (quietly(shaft(one, further=further).ask) for one in ('"none"', '"auto"'))
@@ -289,6 +290,7 @@ def blade_loss(choice):
     return parse_scene(text + further, "case.toml")
 
 
+@pytest.mark.long
 def test_a_run_on_laminar_films_above_the_onset_knows_what_turbulence_does_to_its_peak():
     own, laminar = blade_loss('"auto"'), blade_loss('"none"')
     answer = quietly(laminar.ask)

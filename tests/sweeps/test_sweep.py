@@ -104,11 +104,13 @@ def test_netcdf_holds_the_dataset(tmp_path):
         sweep(SCENE, {"journal.clearance": CLEARANCES[:2]}, path=tmp_path / "out.nc", workers=1)
 
 
+@pytest.mark.long
 def test_processes_change_nothing():
     axes = {"journal.clearance": CLEARANCES, "operation.speed": SPEEDS}
     xarray.testing.assert_identical(sweep(SCENE, axes, workers=1), sweep(SCENE, axes, workers=2))
 
 
+@pytest.mark.long
 def test_a_dask_cluster_of_two_workers_changes_nothing():
     distributed = pytest.importorskip("distributed")
     axes = {"journal.clearance": CLEARANCES, "operation.speed": SPEEDS}

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Mapping, Sequence
+from functools import cache
 from importlib.metadata import version
 from importlib.resources import files
 from importlib.util import find_spec
@@ -81,12 +82,7 @@ def native_sources() -> dict[str, bytes]:
     FmuError
         If the installation lacks them.
     """
-    root = Path(str(files(NATIVE)))
-    paths = sorted(path for path in root.rglob("*.[ch]") if path.parent.name not in UNSHIPPED)
-    found = {path.relative_to(root).as_posix(): path.read_bytes() for path in paths}
-    if not any(name.endswith(".c") for name in found):
-        raise FmuError(f"the C sources of the library must lie in {root}, got none; install rotorfilm again")
-    return found
+    return {path: source.content for path, source in _sources(Path(str(files(NATIVE)))).items()}
 
 
 _COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
@@ -95,16 +91,42 @@ _DEFINED = re.compile(r"^(?!static|extern)\w[\w *]*?\b(rf_\w+)(?:\(|\[| =)", re.
 _NAMED = re.compile(r"\brf_\w+")
 
 
+class _Source(NamedTuple):
+    """A file in C: what it holds, the files that it includes, the symbols that it defines and names."""
+
+    content: bytes
+    included: tuple[str, ...]
+    defined: frozenset[str]
+    named: frozenset[str]
+
+
+@cache
+def _sources(root: Path) -> Mapping[str, _Source]:
+    """Return the files in C below a folder, read once."""
+    paths = sorted(path for path in root.rglob("*.[ch]") if path.parent.name not in UNSHIPPED)
+    found = {path.relative_to(root).as_posix(): path.read_bytes() for path in paths}
+    if not any(name.endswith(".c") for name in found):
+        raise FmuError(f"the C sources of the library must lie in {root}, got none; install rotorfilm again")
+    return {path: _read(path, content) for path, content in found.items()}
+
+
+def _read(path: str, content: bytes) -> _Source:
+    text = _COMMENT.sub("", content.decode())
+    included = tuple(normpath(join(dirname(path), name)) for name in _INCLUDED.findall(text))
+    if path.endswith(".h"):
+        return _Source(content, included, frozenset(), frozenset())
+    return _Source(content, included, frozenset(_DEFINED.findall(text)), frozenset(_NAMED.findall(text)))
+
+
 def model_sources(kernels: Sequence[str], fmi_version: str) -> dict[str, bytes]:
     """Return of `native_sources` what a library with these kernels and one version of FMI needs.
 
     These are the files that define what others of them name, and the headers that they include. The list of
     kernels names these alone.
     """
-    sources = native_sources()
-    texts = {path: _COMMENT.sub("", content.decode()) for path, content in sources.items()}
+    sources = _sources(Path(str(files(NATIVE))))
     units = [path for path in sources if path.endswith(".c")]
-    homes = {symbol: path for path in units for symbol in _DEFINED.findall(texts[path])}
+    homes = {symbol: path for path in units for symbol in sources[path].defined}
     own = {f"kernel_{kernel}.c" for kernel in kernels} | {"kernels.c"}
     other = "fmi/fmi3" if fmi_version == "2.0" else "fmi/fmi2"
     ahead = [path for path in units if path.startswith("fmi/") and not path.startswith(other)]
@@ -114,10 +136,9 @@ def model_sources(kernels: Sequence[str], fmi_version: str) -> dict[str, bytes]:
         path = ahead.pop()
         if path not in needed:
             needed.add(path)
-            ahead += [normpath(join(dirname(path), name)) for name in _INCLUDED.findall(texts[path])]
-            named = set(_NAMED.findall(texts[path])) if path in units else set()
-            ahead += [homes[symbol] for symbol in named & set(homes)]
-    found = {path: sources[path] for path in sorted(needed)}
+            ahead += sources[path].included
+            ahead += [homes[symbol] for symbol in sources[path].named & homes.keys()]
+    found = {path: sources[path].content for path in sorted(needed)}
     rows = found[KERNEL_LIST].decode().splitlines(keepends=True)
     kept = tuple(f"RF_KERNEL({kernel}," for kernel in kernels)
     found[KERNEL_LIST] = "".join(

@@ -56,6 +56,7 @@ def test_slopes_are_those_of_the_functions(alpha, name):
     assert slope(alpha) == pytest.approx(expected, rel=1e-11 + 2e-16 / alpha**2)
 
 
+@pytest.mark.long
 @given(st.floats(-18, 6))
 def test_the_angle_inverts_the_arc_function(exponent):
     value = 10.0**exponent

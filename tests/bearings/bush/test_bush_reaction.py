@@ -150,6 +150,7 @@ def growing(t):
     return 3000.0 + 2000.0 * t
 
 
+@pytest.mark.long
 @pytest.mark.convergence
 def test_wear_under_a_growing_load_converges_to_the_two_moments():
     moment, volume, angle = two_moments(growing, 12.0, 0.5)
@@ -184,6 +185,7 @@ class AssumedMelting:
         return np.zeros(1)
 
 
+@pytest.mark.long
 @pytest.mark.convergence
 def test_the_profile_converges_to_one_state_where_both_assume_the_same_mean_pressure():
     def load(t):
@@ -391,6 +393,7 @@ def test_local_melting_begins_where_the_peak_of_the_pressure_does():
         assert model.derivative(0.0, wear, u).any() == melts
 
 
+@pytest.mark.long
 def test_the_energy_of_a_run_is_conserved():
     """Friction work = heat into shaft and liner over the contact + melting heat of the worn volume."""
     speed, radius, length = 12.0, 12.5e-3, 0.1

@@ -264,6 +264,7 @@ def test_trial_states_with_negative_wear_count_as_unworn():
     assert WEAR.linearization(0.0, [0.0], [LOAD, 9.0]).C.any()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("step", [1.0, 1e4])
 def test_a_long_step_of_an_fmu_does_not_fail_on_its_trial_states(step):
     end = advance(WEAR, 0.0, np.zeros(1), np.array([LOAD, 4.5]), step)

@@ -74,6 +74,7 @@ def test_thin_films_tend_to_the_dry_contact():
     assert 0.0 < errors[2][1] < 0.05
 
 
+@pytest.mark.long
 @pytest.mark.literature
 def test_published_case_on_the_published_grid_and_converged():
     # Panovko (2011), 40 x 40: 0.1761 and 1.793, with a midpoint rule for the singular integral whose error is
@@ -248,6 +249,7 @@ def test_what_flows_into_a_box_flows_out(scheme):
     assert misses[1] < 0.5 * misses[0]
 
 
+@pytest.mark.long
 @pytest.mark.literature
 def test_infinite_rectangle():
     # The error of delta falls as one over the length of the rectangle; that of the cells is taken from the
@@ -285,6 +287,7 @@ def test_published_scheme_damps_by_itself(resting):
         assert (z.real, z.imag / omega) == (pytest.approx(k, abs=6e-4), pytest.approx(damping, abs=6e-5))
 
 
+@pytest.mark.long
 def test_ball_leaves_the_film_and_comes_back(coarse, resting):
     load = StepLoad(amplitude=-1.5, start=0.5, end=2.5)
     run = coarse.simulate(resting, duration=8.0, W=1.0, load=load, control=AdaptiveSteps(tolerance=1e-3))
@@ -300,6 +303,7 @@ def test_massless_ball_carries_the_load_at_once(coarse, resting):
     assert run.carried_load == pytest.approx(run.driven, rel=1e-5)
 
 
+@pytest.mark.long
 def test_load_step_of_eight_completes_by_adapting():
     grid = ContactGrid(cells=(64, 48), inlet=-4.5, outlet=3.5, half_width=3.0)
     c = PointContact(V=0.1, Q0=5.0, grid=grid)
@@ -362,6 +366,7 @@ def test_a_run_goes_on_under_its_own_load_only(coarse, resting):
     assert len(str(caught.value)) < 400
 
 
+@pytest.mark.long
 def test_a_run_goes_on_to_the_last_bit_from_every_step(coarse, resting, tmp_path, monkeypatch):
     # Steps adapt, a jump starts the history anew, and snapshots are hit on the way.
     asked = {"duration": 1.5, "W": 0.5, "load": StepLoad(amplitude=0.8, start=0.7), "snapshots": (0.3,)}

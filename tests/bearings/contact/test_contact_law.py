@@ -69,6 +69,7 @@ def test_static_fit_finds_a_power_law():
     assert fitted[:3] == pytest.approx((0.2, 2.1, 1.54), rel=1e-5)
 
 
+@pytest.mark.long
 def test_static_law_holds_between_its_loads(law):
     state = CONTACT.stationary(0.8)
     for load in (0.25, 0.8, 1.8, 2.7):
@@ -107,6 +108,7 @@ def test_law_is_a_dynamic_model_with_exact_derivatives(law):
     assert system.poles().real.max() < 0.0
 
 
+@pytest.mark.long
 def test_forced_motion_is_that_of_the_full_model(law, resting):
     load = SineLoad(amplitude=0.5, frequency=2.0)
     full = CONTACT.simulate(resting, duration=12.0, W=1.0, load=load, control=FixedSteps(step=0.05))
@@ -202,6 +204,7 @@ def test_a_ball_that_leaves_is_neither_pulled_nor_felt(law):
     assert law.events(0.0, x, [away[1]])[0] == pytest.approx(1.0 / law.span)
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore:force must stay within")
 def test_a_bounce_is_that_of_the_full_film(law, resting):
     load = StepLoad(amplitude=-1.2, start=1.0, end=2.5)

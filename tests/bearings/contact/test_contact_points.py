@@ -110,6 +110,7 @@ def test_points_of_another_grid_or_lubricant_are_kept_apart():
     assert isinstance(contact().piezoviscosity, BarusViscosity)
 
 
+@pytest.mark.long
 def test_a_law_between_points_is_as_good_as_it_says(lattice, monkeypatch):
     direct = reduce_contact(contact(0.085, 4.4))  # kept elsewhere
     monkeypatch.setenv("ROTORFILM_CACHE", str(lattice))

@@ -35,6 +35,7 @@ def place_of(equations, state):
     return Place(pressure, film, pressure > 0.0, Closure(0.0, 1.0, HERTZ_LOAD), 0.0)
 
 
+@pytest.mark.long
 def test_work_does_not_grow_with_the_cells(monkeypatch):
     monkeypatch.setattr(coarse_correction, "COARSEST", 32)
     steps, iterations = {}, {}
@@ -116,6 +117,7 @@ def test_edge_is_found_from_several_cells_away():
         assert np.sum(found != place.wet) < 0.15 * wrong
 
 
+@pytest.mark.long
 def test_thin_film_is_reached_through_coarser_grids():
     c = contact(96, V=0.002, Q0=20.0)
     state = c.stationary()

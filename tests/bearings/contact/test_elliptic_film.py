@@ -216,6 +216,7 @@ def test_film_approach_and_dynamic_stiffness_are_those_of_reynolds_equation_in_s
 # Figures
 
 
+@pytest.mark.long
 @pytest.mark.convergence
 def test_film_on_an_ellipse_converges_to_one_limit():
     limits = []

@@ -182,6 +182,7 @@ def test_potential_does_not_hang_on_its_resolution(monkeypatch):
     assert_allclose(coarse, fine, rtol=3e-4)
 
 
+@pytest.mark.long
 @settings(deadline=None, max_examples=30, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(chi=st.floats(0.0, 0.95), phi=st.floats(-3.1, 3.1), vx=st.floats(-1, 1), vy=st.floats(-1, 1))
 def test_maps_dissipate(finite, chi, phi, vx, vy):
@@ -246,6 +247,7 @@ def test_ends_that_are_not_found_are_an_error(monkeypatch):
         CavitatedPotential(0.5, None)(0.5, 1.0)
 
 
+@pytest.mark.long
 @pytest.mark.closed_form
 def test_force_of_a_finite_map_is_that_of_the_journals_map():
     journal = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.01, film=MapFilm())

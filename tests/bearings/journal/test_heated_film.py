@@ -160,6 +160,7 @@ def test_couette_flow_between_walls_of_one_temperature(layers):
     np.testing.assert_allclose(rise, np.broadcast_to(0.5 * unit * eta * (1.0 - eta), rise.shape), rtol=1e-4)
 
 
+@pytest.mark.long
 @pytest.mark.convergence
 def test_order_of_the_cells():
     states = c * np.array([[0.3, -0.5], [0.45, -0.3], [0.2, -0.3]])
@@ -177,6 +178,7 @@ def test_order_of_the_cells():
     assert errors[-1].max() < 0.02
 
 
+@pytest.mark.long
 @pytest.mark.convergence
 def test_layers_converge():
     film = heated(WALLS["ring"], cells=(80, 8), **TWO)
@@ -231,6 +233,7 @@ def rests(bearing, load, speed, cells=(48, 4), **rest):
     return at
 
 
+@pytest.mark.long
 def test_a_light_load_with_a_groove_that_sits_badly_has_its_rest():
     bearing = JournalBearing(
         radius=0.0381,

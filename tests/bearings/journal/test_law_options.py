@@ -86,6 +86,7 @@ def test_a_reaction_that_does_not_say_is_meant_up_to_the_wall():
     assert largest_eccentricity_ratio(JournalBearing(**DIMENSIONS)) == 1.0
 
 
+@pytest.mark.long
 def test_no_option_is_asked_for_by_its_name():
     named = {name for kind in (FilmOptions, SqueezeOptions) for name in vars(kind) if name[0] != "_"}
     assert {"fitted", "largest_eccentricity_ratio"} <= named

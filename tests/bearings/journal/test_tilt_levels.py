@@ -74,6 +74,7 @@ def steady(film, tau, chi):
     return film.wrench(place, np.append(0.5 * TURN @ place, 0.5), differentiated=False)[0]
 
 
+@pytest.mark.long
 def test_second_order_is_close_to_the_full_film_at_small_tilts(table):
     """The tilt takes 0.2 and 0.4 of the aligned film: force within 0.2 and 1 %, moment 3 and 12 %."""
     film, kernel = tilt_map.whole_film(1.0, (96, 8)), tilt_map.TiltMapKernel(table)

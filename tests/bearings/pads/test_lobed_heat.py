@@ -232,6 +232,7 @@ def test_film_in_time_comes_to_its_balance(film):
     np.testing.assert_allclose(path["power_loss"][-1], at.losses.power_loss, rtol=1e-3)
 
 
+@pytest.mark.long
 def test_warm_bearing_goes_into_an_fmu_with_its_maps(film, tmp_path):
     fmpy = pytest.importorskip("fmpy")
     of = bearing(film, oil=Oil.iso_vg(46), cooling=dataclasses.replace(COOLING, bush_heat_capacity=5.0))

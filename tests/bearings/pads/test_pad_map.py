@@ -68,6 +68,7 @@ def turned(angle):
     return np.array([[c, -s], [s, c]])
 
 
+@pytest.mark.long
 @pytest.mark.convergence
 @shapes
 def test_map_is_the_film(extent, slenderness):
@@ -90,6 +91,7 @@ def test_bounds_hold_for_other_states(extent, slenderness):
     np.testing.assert_array_equal(of.bounds[:, 0], LEAST_FILMS)
 
 
+@pytest.mark.long
 @pytest.mark.literature
 @pytest.mark.parametrize(
     ("extent", "nodes", "median", "most"),

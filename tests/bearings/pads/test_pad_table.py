@@ -99,6 +99,7 @@ def test_first_use_is_logged_and_its_time_is_told_beforehand(folder, caplog):
     assert film.kernel(1.1, 0.5) is kernel
 
 
+@pytest.mark.long
 def test_name_in_the_cache_tells_what_decides_the_content(folder):
     shapes = [
         (1.1, 0.5, COARSE),

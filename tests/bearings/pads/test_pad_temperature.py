@@ -307,6 +307,7 @@ def test_pivots_on_springs_give_way_to_the_film():
         assert rigid.pad_states(moved, OMEGA).pad_loads[k] == pytest.approx(pads.pad_loads[k], rel=1e-9)
 
 
+@pytest.mark.long
 def test_temperature_that_hardly_rises_is_that_of_the_balance():
     """E = 0.01: T1 and T2 see the same viscosity, and share the power and the flow."""
     for bearing in (dam(share=1.0, track=0.0), tilting(film=PadGridFilm(cells=(96, 8)))):
@@ -322,6 +323,7 @@ def test_temperature_that_hardly_rises_is_that_of_the_balance():
         assert found.state.side_flow == pytest.approx(losses.side_flow, rel=3e-2)
 
 
+@pytest.mark.long
 def test_four_pads_without_conduction_have_the_peak_of_another_program():
     """The bearing of Fillon, Bligoud and Frene (1992): 62.5 C at 1000 rpm by 48 x 8 cells on each pad."""
     oil = Oil.thinning_at("27.7 mPa s", 313.15, 0.0341)
@@ -345,6 +347,7 @@ def test_four_pads_without_conduction_have_the_peak_of_another_program():
     assert np.abs(found.rest.position[0]) < 0.02 * 148e-6  # the lower pads are not equally warm
 
 
+@pytest.mark.long
 def test_rest_says_how_the_pads_stand():
     found = heated_equilibrium(HeatedFilm(bearing=BEARINGS["pads"]), LOAD, OMEGA)
     pads, at = found.rest.pads, found.rest

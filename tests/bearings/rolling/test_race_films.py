@@ -210,6 +210,7 @@ def test_a_pair_damps_like_its_rows():
 # The dynamics of the films
 
 
+@pytest.mark.long
 @pytest.mark.closed_form
 def test_bearing_in_harmonic_motion_has_its_contacts_in_series(pressed):
     """K + i omega C by 1/Z = 1/Z_i + 1/Z_o with the film's own stiffness at both races."""

@@ -207,6 +207,7 @@ def test_a_ball_that_leaves_the_inner_race_rests_on_the_outer_one():
     assert not balls.outer_angle[off].any()
 
 
+@pytest.mark.long
 @pytest.mark.closed_form
 @pytest.mark.parametrize("outer", [True, False])
 def test_the_force_is_continuous_where_a_ball_leaves_the_inner_race(outer):

@@ -160,6 +160,7 @@ PUSH = rf.as_reaction(
 MACHINE = {"left": JOURNAL, "right": JOURNAL, "thrust": rf.Parallel((PADS, PUSH))}
 
 
+@pytest.mark.long
 def test_a_flexible_shaft_rests_on_its_thrust_pads_and_swings_on_their_stiffness():
     at = rf.analysis.rotor_equilibrium(SHAFT, MACHINE, 600.0)
     place = at.coefficients["thrust"].position
@@ -176,6 +177,7 @@ def test_a_flexible_shaft_rests_on_its_thrust_pads_and_swings_on_their_stiffness
         assert np.abs(modes - value).min() < 0.02 * abs(value)
 
 
+@pytest.mark.long
 def test_a_reduced_shaft_runs_on_its_pads_in_time_as_in_small_motion():
     reduced = ReducedRotor(rotor=SHAFT, modes=2, speed=600.0, gravity=SHAFT.gravity)
     rotor, at = at_rest(reduced, MACHINE, 600.0)
@@ -188,6 +190,7 @@ def test_a_reduced_shaft_runs_on_its_pads_in_time_as_in_small_motion():
     )
 
 
+@pytest.mark.long
 def test_a_machine_with_its_thrust_bearing_is_an_fmu(tmp_path):
     fmpy = pytest.importorskip("fmpy")
     reduced = ReducedRotor(rotor=SHAFT, modes=0, speed=600.0, gravity=SHAFT.gravity)

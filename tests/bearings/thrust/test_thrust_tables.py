@@ -63,6 +63,7 @@ def test_force_of_fixed_pads_is_that_of_the_film():
     assert np.abs(shear).max() < 0.015  # that of this coarse grid, whose shear is a sum over its cells
 
 
+@pytest.mark.long
 def test_extrapolated_pads_are_those_of_both_grids_also_where_half_the_cells_spread_otherwise():
     known = replace(FIXED, cells=(16, 16), extrapolated=True)
     found = replace(known, tabulated=True)

@@ -120,6 +120,7 @@ def test_the_response_to_unbalance_has_the_stiffness_at_the_speed(films):
         np.testing.assert_allclose(data, journals[:3], rtol=1e-8)
 
 
+@pytest.mark.long
 def test_campbell_diagram_and_critical_speeds_have_the_same_whirls(films):
     rotor, speeds = shaft(2), [130.0, 150.0]
     chart = campbell(rotor, films, speeds, 400.0)

@@ -29,6 +29,7 @@ def test_polar_equations_are_the_cartesian_ones(support, rotor, eps, phi, eps_ra
     assert_allclose([both.real, both.imag], [ax, ay], atol=1e-9 * (1e5 + abs(both)))
 
 
+@pytest.mark.long
 def test_transient_of_the_paper_in_both_coordinates(support, rotor):
     # Figure 4: Bs = 2 B = 0.24 if L/D = 1/2, U = .4, Omega_s = .4, eps(0) = .6, beta(0) = -2.8 rad, at rest
     # in turning axes.

@@ -104,6 +104,7 @@ def test_both_routes_agree_on_grids(name):
     np.testing.assert_allclose(own.position, other.position, atol=2e-3 * 1e-4)
 
 
+@pytest.mark.long
 def test_both_routes_agree_on_a_damper_that_is_run_up_between_springs():
     support = with_springs(DAMPER, 2e6)
     profile = SpeedProfile(times=(0.0, 0.1), speeds=(50.0, 400.0))

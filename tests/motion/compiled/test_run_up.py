@@ -185,6 +185,7 @@ def test_few_shapes_are_within_their_tolerance_of_all():
         simulate_rotor(both(rotor, FILM), condensation=-1.0, **arguments)
 
 
+@pytest.mark.long
 def test_films_by_station_are_mounted_and_run():
     rotor, films = (
         overhung(SpeedProfile(times=(0.0, 0.1), speeds=(100.0, 150.0))),
@@ -254,6 +255,7 @@ def test_the_whole_shaft_under_the_forces_of_a_run_has_its_journals(told, monkey
     assert len(set(ends)) == 3
 
 
+@pytest.mark.long
 def test_a_shaft_that_whirls_is_run_in_few_shapes(told):
     # Two runs of unstable motion part exponentially; what the shapes neglect stays small.
     rise, work = SpeedProfile(times=(0.0, 0.4), speeds=(300.0, 400.0)), []

@@ -45,6 +45,7 @@ def test_folds_of_duffing(cubic_bearing):
     assert all(np.abs(o.multipliers[0].imag) < 1e-9 and o.multipliers[0].real > 1.0 for o in unstable)
 
 
+@pytest.mark.long
 def test_large_whirl_of_the_short_bearing(short_rotor):
     family = short_rotor(0.2)
     onset = hopf_point(family, (0.97, 1.03))

@@ -80,6 +80,7 @@ def test_flexible_orbit_comes_back():
         assert motion == pytest.approx(orbit.position(run.time)[k], abs=3e-7 * 1e-4)
 
 
+@pytest.mark.long
 def test_multipliers_are_those_of_the_flow():
     mounted = mount(ROTOR, {"": BEARING})
     orbit = periodic_orbit(mounted)

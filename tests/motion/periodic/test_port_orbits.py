@@ -77,6 +77,7 @@ def test_an_orbit_on_tilting_pads_comes_back_and_knows_its_multipliers():
         assert_allclose(change, monodromy[:, column], atol=1e-3 * np.abs(monodromy[:, column]).max())
 
 
+@pytest.mark.long
 def test_a_curve_of_orbits_on_tilting_pads_meets_those_found_alone():
     start = periodic_orbit(on_pads(2e-3))
     curve = continue_orbits(
@@ -87,6 +88,7 @@ def test_a_curve_of_orbits_on_tilting_pads_meets_those_found_alone():
     assert curve.orbits[-1].amplitude == pytest.approx(alone.amplitude, rel=1e-7)
 
 
+@pytest.mark.long
 def test_a_shaft_moves_axially_and_tilts_in_ball_bearings_on_its_orbit():
     single = rf.BallBearing(
         balls=10, ball_diameter=7.938e-3, pitch_diameter=33.5e-3, contact_angle=0.4363, damping=200.0
@@ -125,6 +127,7 @@ def test_slow_temperatures_and_fast_modes_are_no_drift():
     PortRotor.of(rf.mount(shaft(elements=pieces, stations=stations), {"left": warm, "right": warm}))
 
 
+@pytest.mark.long
 def test_whirl_at_a_frequency_of_its_own_is_that_in_compiled_loops():
     """Whirl has no unbalance: its frequency is found with it, by the derivative of the responses."""
     film = rf.JournalBearing(radius=0.05, length=0.025, clearance=1e-4, viscosity=0.02)

@@ -104,6 +104,7 @@ def test_rigid_rotor_agrees_with_the_general_integrator():
         assert run[name] == pytest.approx(other[name], abs=1e-5 * 525.0)
 
 
+@pytest.mark.long
 def test_flexible_rotor_agrees_with_an_independent_integrator():
     films = {"left": BEARING, "right": BEARING}
     small = reduce_rotor(shaft(), frequency=800.0, tolerance=1e-1).rotor

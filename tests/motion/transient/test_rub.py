@@ -152,6 +152,7 @@ def test_a_rigid_rotor_against_an_own_integration():
     assert OFF_CENTER.contact(run.position, run.velocity, 300.0).depth.max() > 0.02 * GAP
 
 
+@pytest.mark.long
 def test_a_station_of_a_shaft_against_an_own_integration():
     steel = rf.ElasticMaterial(young_modulus=2.1e11, shear_modulus=8e10, density=7800.0)
     piece = rf.ShaftElement(length=0.6, outer_diameter=0.03, material=steel)

@@ -18,6 +18,7 @@ BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1
 FRISWELL = RigidRotor(mass=525.0 / 9.80665, speed=157.0796, unbalance=1e-3, position=(2e-5, -3e-5))
 
 
+@pytest.mark.long
 @pytest.mark.closed_form
 def test_free_vibration_on_a_spring_and_damper(make_linear_film):
     film = make_linear_film(STIFFNESS, DAMPING)
@@ -32,6 +33,7 @@ def test_free_vibration_on_a_spring_and_damper(make_linear_film):
     assert_allclose(run["force_x"], -STIFFNESS * run["x"] - DAMPING * run["vx"], rtol=1e-12)
 
 
+@pytest.mark.long
 @pytest.mark.closed_form
 def test_steady_response_to_unbalance_has_the_exact_amplitude_and_transmissibility(make_linear_film):
     film, unbalance = make_linear_film(STIFFNESS, DAMPING), 1e-5
@@ -54,6 +56,7 @@ def test_steady_response_to_unbalance_has_the_exact_amplitude_and_transmissibili
     assert_allclose(transmitted, transmissibility, rtol=1e-7)
 
 
+@pytest.mark.long
 @pytest.mark.closed_form
 def test_mass_center_of_a_free_rotor_moves_on_a_straight_line_through_any_spin_up(make_linear_film):
     speed = SpeedProfile(times=(0.0, 0.05, 0.08, 0.2), speeds=(0.0, 400.0, 400.0, -100.0))
@@ -75,6 +78,7 @@ def test_a_short_change_of_speed_is_not_stepped_over(make_linear_film):
     assert_allclose(run.position[:, -1], 2e-5 * np.array([1.0 - np.cos(0.5), -np.sin(0.5)]), atol=1e-9)
 
 
+@pytest.mark.long
 @pytest.mark.convergence
 def test_error_falls_with_the_tolerance(make_linear_film):
     film = make_linear_film(STIFFNESS, DAMPING)

@@ -80,6 +80,7 @@ class RunawayRotor(RigidRotor):
         return np.array([x[2], x[3], 1.0 + x[2] ** 2, 0.0])
 
 
+@pytest.mark.long
 def test_an_integrator_that_gives_up_says_where(make_linear_film):
     rotor = RunawayRotor(mass=1.0, speed=1.0)
     with pytest.raises(

@@ -63,6 +63,7 @@ def test_slow_wear_is_that_of_a_shaft_without_inertia():
     assert_allclose(moved, still, atol=1e-3 * still.max())
 
 
+@pytest.mark.long
 def test_a_drop_of_the_load_settles_on_the_worn_profile():
     wear = tuple(1e-5 * np.maximum(0.0, np.cos((WORN.angles + 0.5 * math.pi) * 3.0)))
     film = replace(WORN, wear_depth=wear, temperature=250.0)

@@ -193,6 +193,7 @@ def test_forces_of_another_code(supply, eps, conserved, reynolds):
     assert orbit.power_loss == pytest.approx(-orbit.tangential_force * eps * c * OMEGA)
 
 
+@pytest.mark.long
 @pytest.mark.closed_form
 def test_reynolds_rupture_is_that_of_the_damper_on_a_map():
     sizes = {"radius": R, "length": 0.05, "clearance": c, "viscosity": mu}

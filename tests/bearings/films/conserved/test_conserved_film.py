@@ -158,6 +158,7 @@ def test_steps_conserve_oil_and_come_to_the_steady_film(film_of):
     np.testing.assert_allclose(film.force(state), film.force(solved(film, e)), rtol=1e-6)
 
 
+@pytest.mark.long
 def test_films_that_are_gone_are_forgotten(film_of):
     film = film_of(TWO)
     solved(film, polar(0.4, -1.0))

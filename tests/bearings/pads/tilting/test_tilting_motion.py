@@ -207,6 +207,7 @@ def test_touched_pad_is_named_in_motion(tilting):
         one.derivative(0.0, x, [0.0, 0.0, 0.0, 0.0, SPEED])
 
 
+@pytest.mark.long
 def test_thresholds_of_light_pads_and_none_of_preloaded_ones(tilting):
     light = tilting(5, 0.5, 60.0, 0.0, first=270.0, cells=(16, 4))
     unit = light.force_scale * SPEED

@@ -42,6 +42,7 @@ def test_a_load_that_one_pad_carries_nearly_alone_has_its_place(tilting, side, h
     assert abs(at.position[0]) > 0.3 * bearing.clearance
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.UnloadedPadWarning")
 def test_an_overloaded_pad_is_told_as_an_overloaded_journal_is():
     bearing = TiltingPadBearing(
@@ -144,6 +145,7 @@ def test_a_light_load_on_pads_without_preload_moves_the_journal_by_its_square(ti
     assert places[1] / places[0] == pytest.approx(100.0, rel=0.05)
 
 
+@pytest.mark.long
 @pytest.mark.closed_form
 @pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.UnloadedPadWarning")
 def test_the_whirl_threshold_of_light_rotors_scales_with_their_load(tilting):
