@@ -376,10 +376,11 @@ def checked_load(load: ArrayLike) -> Array:
 
 
 def _result(reaction: Any, load: Array, target: StaticTarget, point: Any) -> Equilibrium:
-    position, speed = np.array(point.position), target.struct.speed
-    # A force in Python, or one beyond its map, is asked once more for what it has to warn of.
-    silent = target.is_compiled and point.status == Status.OK and not hasattr(reaction, "completed")
-    force = np.array(point.force) if silent else reaction.force(position, np.zeros(2), speed)
+    position, speed, residual = np.array(point.position[:]), target.struct.speed, point.imbalance
+    if not target.is_compiled or point.status != Status.OK or hasattr(reaction, "completed"):
+        # A force in Python, or one beyond its map, is asked once more for what it has to warn of.
+        force = reaction.force(position, np.zeros(2), speed)
+        residual = math.hypot(*(force + load)) / target.size
     angle = math.copysign(1.0, speed) * (point.phi - math.atan2(load[1], load[0]))
     return Equilibrium(
         position=position,
@@ -391,7 +392,7 @@ def _result(reaction: Any, load: Array, target: StaticTarget, point: Any) -> Equ
         minimum_film=float(reaction.minimum_film(position))
         if port.has_wall(reaction)
         else target.struct.clearance / (1.0 + math.exp(point.s)),
-        residual=math.hypot(*(force + load)) / target.size,
+        residual=residual,
         iterations=point.steps,
         reaction=reaction,
     )

@@ -187,7 +187,7 @@ def _searched(
     return _refined(reaction, load, mass, (before, at), passed)
 
 
-_AT_ONCE = 8
+_AT_ONCE = 16
 """Equilibria that are searched at once: those beyond a threshold are in vain."""
 
 
@@ -485,19 +485,20 @@ def damping_has_rank_one(coefficients: Coefficients) -> bool:
     """Return whether det C vanishes to roundoff, so that stability does not depend on the mass."""
     C = coefficients.damping
     # Compared with the whole matrix: products of its entries depend on the axes, and may all be roundoff.
-    return bool(abs(_determinant(C)) <= _RANK_TOLERANCE * np.sum(C**2))
+    return bool(abs(_determinant(C)) <= _RANK_TOLERANCE * np.vdot(C, C))
 
 
 def _does_no_work(coefficients: Coefficients) -> bool:
     """Return whether C is skew, as that of a gyroscopic force, so that its power v C v is zero."""
-    C = coefficients.damping
-    return bool(np.any(C) and np.abs(C + C.T).max() <= _RANK_TOLERANCE * np.abs(C).max())
+    (xx, xy), (yx, yy) = coefficients.damping.tolist()
+    largest = max(map(abs, (xx, xy, yx, yy)))
+    return 0.0 < largest and max(abs(2.0 * xx), abs(xy + yx), abs(2.0 * yy)) <= _RANK_TOLERANCE * largest
 
 
 def is_stable(coefficients: Coefficients, mass: float) -> bool:
     """Return whether all roots of det(m s^2 + C s + K) have negative real parts (Routh, Hurwitz)."""
     return bool(
-        np.trace(coefficients.damping) > 0.0
+        coefficients.damping.trace() > 0.0
         and effective_stiffness(coefficients) > 0.0
         and _determinant(coefficients.stiffness) > 0.0
         and whirl_margin(coefficients, mass) > 0.0
