@@ -595,7 +595,9 @@ def has_force_against(target: StaticTarget) -> bool:
             if at.norm < math.inf:
                 sides[0] = max(sides[0], at.angle if at.angle <= _ALIKE else -math.inf)
                 sides[1] = min(sides[1], at.angle if at.angle >= -_ALIKE else math.inf)
-    return sides[1] - sides[0] < _OPPOSITE
+                if sides[1] - sides[0] < _OPPOSITE:
+                    return True
+    return False
 
 
 # The static equilibrium of a journal on a film whose temperature is a field.
