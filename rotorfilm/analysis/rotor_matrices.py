@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -55,10 +55,15 @@ class SecondOrder(NamedTuple):
 
 def second_order(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
     """Return the equations of small motion about an equilibrium, at its speed, with the mass of its films."""
-    mass = structure.mass
     damping = _turned(structure.damping, at.speed, structure.gyroscopic)
     stiffness = _turned(structure.stiffness, at.speed, structure.circulation)
-    for name, film in at.coefficients.items():
+    return _on_films(structure, SecondOrder(structure.mass, damping, stiffness), at.coefficients)
+
+
+def _on_films(structure: Structure, system: SecondOrder, films: Mapping[str, Coefficients]) -> SecondOrder:
+    """Return equations of a rotor with K, C and added mass of films at its stations."""
+    mass, damping, stiffness = system
+    for name, film in films.items():
         rows = freedom_rows(structure, name, freedoms_of(film))
         damping = damping + _at_journal(structure, rows, film.damping)
         stiffness = stiffness + _at_journal(structure, rows, film.stiffness)
@@ -190,10 +195,10 @@ def motion_near(
     structure: Structure, at: RotorEquilibrium, frequency: float
 ) -> Callable[[complex], SecondOrder]:
     """Return the equations of small motion about an equilibrium near an exponent, as a function of it."""
-    if frequency_dependent_films(at):
-        return lambda s: small_motion(structure, rest_near(at, s), frequency)
-    system = small_motion(structure, at, frequency)
-    return lambda s: system
+    films = frequency_dependent_films(at)
+    held = {name: film for name, film in at.coefficients.items() if name not in films}
+    system = small_motion(structure, replace(at, coefficients=held), frequency)
+    return lambda s: _on_films(structure, system, {n: film.near(s) for n, film in films.items()})
 
 
 # One whirl of a rotor at a speed, by inverse iteration: dense, or banded in a rotor of many elements.
@@ -260,12 +265,16 @@ def whirl_near(
     # On an eigenvalue itself L has no inverse.
     shift = value * (1.0 + 1e-9)
     found, right, left = inverse_steps(system_at(shift), shift, load, load, 3)[-1]
-    if abs(found - value) <= KNOWN * abs(found):
+    moved = abs(found - value)
+    if moved <= KNOWN * abs(found):
         return found, right, left  # its error is of second order in that distance
     for step in range(_STEPS):
-        before = found
+        before, last = found, moved
         found, right, left = inverse_steps(system_at(found), found * (1.0 + BESIDE), right, left, 1)[-1]
-        if abs(found - before) < (CONVERGED if step < PATIENCE else ROUNDED) * abs(found):
+        moved = abs(found - before)
+        # The next step would be shorter by at least as much as this one is than the last.
+        foreseen = moved * min(1.0, moved / last)
+        if foreseen < CONVERGED * abs(found) or (step >= PATIENCE and moved < ROUNDED * abs(found)):
             return found, right, left
     raise ConvergenceError(f"the whirl near {value:.6g} rad/s was not found by inverse iteration")
 

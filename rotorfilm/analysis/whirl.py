@@ -492,7 +492,7 @@ def _does_no_work(coefficients: Coefficients) -> bool:
     """Return whether C is skew, as that of a gyroscopic force, so that its power v C v is zero."""
     (xx, xy), (yx, yy) = coefficients.damping.tolist()
     largest = max(map(abs, (xx, xy, yx, yy)))
-    return 0.0 < largest and max(abs(2.0 * xx), abs(xy + yx), abs(2.0 * yy)) <= _RANK_TOLERANCE * largest
+    return largest > 0.0 and max(abs(2.0 * xx), abs(xy + yx), abs(2.0 * yy)) <= _RANK_TOLERANCE * largest
 
 
 def is_stable(coefficients: Coefficients, mass: float) -> bool:
