@@ -115,13 +115,9 @@ def made_from(makes: type[T], table: Any, **further: Any) -> T:
     **further
         Values of fields that the table does not have, or that differ there.
     """
-    shared = _names(makes) & _names(type(table)) - further.keys()
+    own = {field.name for field in fields(makes)}  # type: ignore[arg-type]
+    shared = own & {field.name for field in fields(table)} - further.keys()
     return makes(**{name: getattr(table, name) for name in shared}, **further)
-
-
-@cache
-def _names(of: type[Any]) -> frozenset[str]:
-    return frozenset(field.name for field in fields(of))
 
 
 # Read tables of a scene file into dataclasses: each field says by its annotation how it is read.
