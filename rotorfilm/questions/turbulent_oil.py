@@ -1,8 +1,9 @@
 """The effect of turbulence on a question about a bearing with a film.
 
-Levels are the laminar film, a fit with the local Reynolds number, the quadrature of the eddy viscosity that
-it fits, and the eddy viscosity of the full stress. What a level leaves out is the step that the richer one
-makes at the place found: by its force and slopes there, without an equilibrium of its own. The band of
+Levels are the laminar film, one Reynolds number for the whole film, a fit with the local Reynolds number, the
+quadrature of the eddy viscosity that it fits, and the eddy viscosity of the full stress. What a level leaves
+out is the step that the richer one makes at the place found: by its force and slopes there, without an
+equilibrium of its own. That of one Reynolds number is a film of `scenes.film_rungs`. The band of
 transition, behind which no measurement stands, is no part of the error: what it changes is said beside the
 answer.
 """
@@ -46,7 +47,7 @@ def turbulent_oil(scene: Scene, question: Any, films: Sequence[FilmCandidate], l
     The error of a laminar film above the onset is what a turbulent one changes. That of a closure is what the
     quadrature and the full stress change, the latter not known of tilting pads.
     """
-    bearing = films[0].reaction
+    bearing = films[-1].reaction
     effect = getattr(bearing, "turbulence", None)
     place = at_temperature(question, bearing)
     if effect is None:
@@ -55,17 +56,17 @@ def turbulent_oil(scene: Scene, question: Any, films: Sequence[FilmCandidate], l
         own = turbulence_of(bearing, scene)
 
         def step() -> ErrorEstimate:
-            about = step_to(question, films[0], place(), own)
+            about = step_to(question, films[-1], place(), own)
             return about._replace(error=WHOLE_STEP * about.error, doubt=BEYOND)
 
         return _counted(ladder, cache(step), "turbulence")
-    about = quiet(lambda: step_to(question, films[0], place(), other_band(effect)))
+    about = quiet(lambda: step_to(question, films[-1], place(), other_band(effect)))
     ladder = _said(ladder, [effect], None if about is None else about.error)
 
     def closer() -> ErrorEstimate:
         richer = replace(effect, closure=QUADRATURE)
-        about = step_to(question, films[0], place(), richer) if richer != effect else None
-        stress = by_stress(question, films[0], place())
+        about = step_to(question, films[-1], place(), richer) if richer != effect else None
+        stress = by_stress(question, films[-1], place())
         return about._replace(error=about.error + stress) if about else ErrorEstimate(stress, "full stress")
 
     return _counted(ladder, cache(closer), "closure")

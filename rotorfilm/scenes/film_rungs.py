@@ -21,12 +21,12 @@ from ..core.errors import InputError, require_vector
 from ..core.model import Array
 from ..core.port import largest_eccentricity_ratio, minimum_film
 from ..core.results import Equilibrium
-from .journal_tables import has_map
+from .journal_tables import TABLE_RANGE, has_map
 
 COARSE_MAP = journal.GroovedMapFilm(cells=(96, 8), nodes=(8, 48, 32))
 """Made in a fifth of the time of the map with openings, with errors some four times as large."""
 
-MEDIUM, FINE, FINEST = (192, 16), (384, 16), (768, 32)
+LOCAL, MEDIUM, FINE, FINEST = (48, 8), (192, 16), (384, 16), (768, 32)
 
 
 def film_rungs(bearing: journal.JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
@@ -44,7 +44,7 @@ def film_rungs(bearing: journal.JournalBearing, *, fixed: bool) -> tuple[FilmRun
     elif tabulated:
         rungs = [_map(bearing), *_plain_films(bearing, tabulated), *_grids(bearing, tabulated)]
     elif bearing.turbulence is not None and plain:
-        rungs = _grids(bearing, tabulated)
+        rungs = [*_one_number(bearing), *_grids(bearing, tabulated)]
     elif plain:
         low, high = journal.MapFilm().slenderness_range
         own = [_map(bearing)] if low <= bearing.slenderness <= high else []
@@ -112,6 +112,17 @@ def extrapolated(bearing: journal.JournalBearing, cells: tuple[int, int]) -> jou
 def _map(bearing: journal.JournalBearing) -> FilmRung:
     rung = _rung("map", bearing, journal.MapFilm(), _rich(False, FINEST), (1e-6, 1e-4), bounded=True)
     return rung if has_map(bearing) else replace(rung, making=MAP_MADE.nominal)
+
+
+def _one_number(bearing: journal.JournalBearing) -> list[FilmRung]:
+    """Return the film of one Reynolds number, from the laminar map; none where that is too long for it."""
+    effect, (low, high) = bearing.turbulence, TABLE_RANGE
+    if effect is None or not (effect.local and 2.0 * low <= bearing.slenderness <= high):
+        return []
+    whole = replace(bearing, turbulence=replace(effect, local=False))
+    film = journal.fitted_bearing(whole, journal.MapFilm())
+    rich = extrapolated(bearing, LOCAL)
+    return [FilmRung("one Reynolds number", film, rich, grid_name(LOCAL), 0.1, 0.1)]
 
 
 def _grooved_maps(bearing: journal.JournalBearing) -> list[FilmRung]:

@@ -34,7 +34,10 @@ def read_band(where: str, value: Any) -> bool | tuple[float, ...]:
 
 
 TABLE = Table(
-    Keyed(Turbulence, {"closure": one_of(CLOSURES), "band": read_band, "density": Quantity("kg/m3")})
+    Keyed(
+        Turbulence,
+        {"closure": one_of(CLOSURES), "band": read_band, "density": Quantity("kg/m3"), "local": flag},
+    )
 )
 
 CHOICES: Mapping[str, str | Turbulence] = {

@@ -164,6 +164,25 @@ def test_the_estimate_counts_what_the_quadrature_and_the_full_stress_change(quan
     assert 0.5 * truth < answer.error_estimate < 4.0 * truth + 0.01
 
 
+@pytest.mark.parametrize("quantity", ["eccentricity_ratio", "power_loss", "stiffness"])
+def test_a_light_load_is_answered_with_one_reynolds_number_and_its_error(quantity):
+    asked = scene(MU + 'turbulence = "reichardt"', further=QUESTION.format(quantity=quantity, tolerance=20))
+    light = replace(asked, operation=replace(asked.operation, load=(0.0, -6e4)))
+    answer = quietly(light.ask)
+    assert (answer.model, answer.met) == ("one Reynolds number", True)
+    fine = quick(light.journal_bearing)
+    at = rf.equilibrium(fine, light.static_load, light.speed)
+    known = {
+        "eccentricity_ratio": at.eccentricity_ratio,
+        "power_loss": at.losses.power_loss,
+        "stiffness": rf.coefficients(fine, at.position, light.speed).stiffness,
+    }[quantity]
+    truth = np.abs(answer.value - known).max() / np.abs(known).max()
+    assert 0.5 * truth < answer.error_estimate < 2.0 * truth
+    sure = quietly(replace(light, question=replace(light.question, tolerance=0.01)).ask)
+    assert sure.model.startswith("2-D")
+
+
 def test_the_full_stress_is_that_of_the_note():
     """Elrod & Ng (1967): conductances over the linear ones at Re 2000; the force of the large bearing."""
     number = np.array([2000.0])

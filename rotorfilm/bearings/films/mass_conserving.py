@@ -718,7 +718,8 @@ class ConservedFilm:
         cells, gap = self.cells, state.gap.line + self.cells.beside
         per_gap, film = 1.0 / gap, cells.opening == FILM
         if self.mobility is not None and not laminar:
-            local = self.mobility.at_rate(np.array([state.rate]), self.reynolds_scale) * gap
+            grown = self.mobility.at_rate(np.array([state.rate]), self.reynolds_scale)
+            local = grown * self.mobility.place(gap)
             if self.fluidity is not None and self.mobility.density > 0.0:
                 local = local / self.fluidity.sheared
             per_gap *= self.mobility.factors(local)[0][3]

@@ -41,6 +41,9 @@ class Mobility(StoredTable):
         X/H without a density.
     density : float [kg/m3]
         Density of the oil, where X is density |speed| radius thickness/viscosity; 0 for functions of H.
+    local : bool
+        Whether H in X is that of each place; False for 1, the clearance, so that the factors are the same
+        everywhere.
 
     Raises
     ------
@@ -53,6 +56,7 @@ class Mobility(StoredTable):
     last_node: float
     per_thickness: float = 1.0
     density: float = 0.0
+    local: bool = True
 
     def __post_init__(self) -> None:
         require_shapes(self, coefficients=(FACTORS, None))
@@ -87,6 +91,10 @@ class Mobility(StoredTable):
         """Return the factors at one speed, at which X is so many times H."""
         return replace(self, per_thickness=per_thickness, density=0.0)
 
+    def place(self, H: Array) -> Array:
+        """Return the thickness that the factors at a thickness H are those of."""
+        return H if self.local else np.ones_like(H)
+
     def factors(self, X: ArrayLike) -> tuple[Array, Array]:
         """Return the four factors at X (...), shape (4, ...), and their derivatives by X."""
         from .map_fit import spline_slopes, spline_weights  # which a laminar film does without
@@ -106,7 +114,7 @@ class Mobility(StoredTable):
 
     def tables(self) -> dict[str, Array]:
         """Return what kernels of the C library read (`native/grids/mobility.h`)."""
-        numbers = [self.scale, self.last_node, self.per_thickness, self.density]
+        numbers = [self.scale, self.last_node, self.per_thickness, self.density, float(self.local)]
         return {"mobility": self.coefficients, "mobility_scale": np.array(numbers)}
 
     def struct(self, per_rate: float = 0.0) -> Any:
@@ -119,6 +127,7 @@ class Mobility(StoredTable):
             self.coefficients.ctypes.data,
             cells,
             self.drags,
+            self.local,
             self.scale,
             self.last_node,
             self.per_thickness,
@@ -277,7 +286,8 @@ def sheared_gap(
     weights = np.tile(half * GAUSS[1], PIECES)
     n = np.stack([np.cos(angle), np.sin(angle)])
     H = 1.0 - np.tensordot(e, n, (0, 0))
-    values, slopes = (row[3] for row in mobility.factors(per_thickness[:, None] * H))
-    by_thickening = per_thickness[:, None] * slopes
-    by_H = (by_thickening - values / H) / H
+    place = mobility.place(H)
+    values, slopes = (row[3] for row in mobility.factors(per_thickness[:, None] * place))
+    by_thickening = per_thickness[:, None] * slopes * (place / H)
+    by_H = (by_thickening * mobility.local - values / H) / H
     return (values / H) @ weights, -np.einsum("im,nm,m->in", n, by_H, weights), by_thickening @ weights

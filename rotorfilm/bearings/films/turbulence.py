@@ -175,6 +175,9 @@ class Turbulence:
         behind the band: compare the answers with and without it.
     density : float or None [kg/m3]
         Density of the oil; None for that of the bearing's oil at its temperature, and 870 without an oil.
+    local : bool
+        Whether each place has the factors of its own thickness. With False the film has one Reynolds number,
+        that of the clearance: the force is then that of a laminar film of another viscosity and length.
 
     Raises
     ------
@@ -197,8 +200,10 @@ class Turbulence:
     closure: str = "ng_pan"
     band: bool | tuple[float, float] = True
     density: float | None = None
+    local: bool = True
 
     def __post_init__(self) -> None:
+        require_kind("local", self.local, bool, "True or False")
         if self.closure not in CLOSURES:
             raise InputError(f"closure must be one of {', '.join(CLOSURES)}, got {self.closure!r}")
         if self.density is not None:
@@ -249,11 +254,19 @@ class Turbulence:
         """
         require_positive("density", density)
         own = _splines(self.closure, self.edges(radius, clearance))
-        return replace(own, density=self.density or density)
+        return replace(own, density=self.density or density, local=self.local)
 
 
 def local_reynolds(bearing: Any, speed: float, thickness: Array, viscosity: Array) -> Array:
-    """Return the Reynolds number of films of a thickness and a viscosity over those of a bearing [1]."""
+    """Return the Reynolds number of films of a thickness and a viscosity over those of a bearing [1].
+
+    Raises
+    ------
+    InputError
+        If the turbulence of the bearing has one Reynolds number.
+    """
+    if not bearing.turbulence.local:
+        raise InputError("turbulence must have local=True in films with a temperature field, got local=False")
     density = bearing.turbulence.density or bearing.film_density
     whole = density * abs(speed) * bearing.radius * bearing.clearance / bearing.film_viscosity
     return np.asarray(whole * thickness / viscosity)

@@ -111,7 +111,7 @@ def _film(bearing: Any, position: Array, cells: tuple[int, int]) -> FullStressFi
     centers = bearing.centers_at(spans.start + 0.5 * spans.extent)
     sunk, e = bearing.geometry.recesses, position / bearing.clearance
     own = film_cells(spans, grids[0], bearing.slenderness, e, centers, sunk)
-    quadrature = replace(bearing, turbulence=replace(bearing.turbulence, closure="reichardt"))
+    quadrature = replace(bearing, turbulence=replace(bearing.turbulence, closure="reichardt", local=True))
     even = np.ones(own.shape)
     return FullStressFilm(
         cells=own,

@@ -42,6 +42,7 @@ from ..films.map_fit import (
 from ..films.map_growth import reynolds_axis
 from ..films.map_table import ERRORS, BoundedTable, require_shapes, stretch
 from ..films.mobility import Mobility, checksum_of, per_rate, require_mobility, require_same_mobility
+from .map_film import MapFilm
 from .reynolds_film import ExtrapolatedFilm, ReynoldsFilm
 
 BANDS = (0.5, 0.8, 0.9)
@@ -120,6 +121,10 @@ class MobileMapFilm(KernelFilm):
     cache. At one speed the force is the gradient of a potential, so that the damping matrix is symmetric. The
     derivatives are exact, that by the speed with the part that comes from the Reynolds number. Shear and flow
     are those of the film on the grid.
+
+    With a mobility that is not local the film has one Reynolds number. Its force is that of a laminar film of
+    the length L sqrt(k_z/k_x), times k_x/12. The map is then made from the laminar map in some milliseconds,
+    without films on grids, and is not kept.
 
     Parameters
     ----------
@@ -206,7 +211,8 @@ class MobileMapFilm(KernelFilm):
         """Return the map of this film: the given one, the one on disk, or a new one, which is then kept."""
         if self.table is not None:
             return self.table
-        return MobileMap(self, nine_digits(slenderness)).kept(report)
+        plan = MobileMap(self, nine_digits(slenderness))
+        return plan.kept(report) if self.mobility.local else plan.finished(plan.scaled())
 
     def _kernel(self, slenderness: float) -> MapKernel:
         return _kernel_of(self, float(slenderness))
@@ -265,8 +271,23 @@ class MobileMap(MapPlan[MobileMapTable]):
         shape = cells_y + 1, cells_x + 1, cells_cos + 1
         return MapPart(rows, lambda found: np.reshape(found, shape)), joined(checks)
 
-    def finished(self, levels: Array, exact: Array) -> MobileMapTable:
-        """Return the map with its bounds; see `MapPlan`."""
+    def scaled(self) -> Array:
+        """Return potentials at all nodes from the laminar map of longer and stiffer films."""
+        film, (cells_x, cells_cos, cells_y) = self.film, self.film.nodes
+        scale, most = film.axis
+        chi = node_eccentricities(film.largest_eccentricity_ratio, cells_x)
+        cos = np.linspace(-1.0, 1.0, cells_cos + 1)
+        e = np.stack(np.broadcast_arrays(chi[:, None], 0.0 * cos))
+        w = np.stack(np.broadcast_arrays(cos, np.sqrt((1.0 - cos) * (1.0 + cos)), 0.0 * chi[:, None])[:2])
+        levels = []
+        for y in np.linspace(0.0, math.log1p(most / scale), cells_y + 1).tolist():
+            around, along = film.mobility.factors(scale * math.expm1(y))[0][:2]
+            force = MapFilm().force(e, w, self.slenderness * math.sqrt(around / along))
+            levels.append(np.log(-0.5 / around * (force * w).sum(axis=0)))
+        return np.array(levels)
+
+    def finished(self, levels: Array, exact: Array | None = None) -> MobileMapTable:
+        """Return the map, with its bounds where exact films are given; see `MapPlan`."""
         film, slenderness = self.film, self.slenderness
         levels[:, 0] = levels[:, 0].mean(axis=-1, keepdims=True)
         largest, (scale, most) = film.largest_eccentricity_ratio, film.axis
@@ -282,6 +303,8 @@ class MobileMap(MapPlan[MobileMapTable]):
             log_center=quintic_coefficients(np.array([layer.log_center[0] for layer in layers])),
             coefficients=np.ascontiguousarray(over_y.swapaxes(0, 1)),
         )
+        if exact is None:
+            return table
         reaches, e, w, reynolds = _states(film)
         bounds = band_bounds(reaches, state_errors(table.kernel(1.0), exact, e, w, reynolds))
         return dataclasses.replace(table, bounds=bounds)

@@ -105,7 +105,7 @@ static double factor_at(const stream *oil, rf_factor which, double H)
 {
     const rf_mobility *mobility = &oil->film->ring->mobility;
     double slope;
-    return mobility->cells > 0 ? rf_ease(mobility, which, oil->cells->growth * H, &slope) : 1.0;
+    return mobility->cells > 0 ? rf_ease(mobility, which, oil->cells->growth * rf_eased_at(mobility, H), &slope) : 1.0;
 }
 
 /* The rate at which oil runs along a gap H. */

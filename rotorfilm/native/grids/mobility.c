@@ -28,12 +28,12 @@ double rf_ease(const rf_mobility *mobility, rf_factor factor, double X, double *
 
 int rf_take_mobility(rf_mobility *mobility, const rf_tables *tables, rf_message *why)
 {
-    const rf_mobility none = {NULL, 0, 0, 1.0, 1.0, 1.0, 0.0, 0.0};
+    const rf_mobility none = {NULL, 0, 0, 1, 1.0, 1.0, 1.0, 0.0, 0.0};
     const rf_table *factors = rf_seek_table(tables, "mobility");
     *mobility = none;
     if (!factors)
         return RF_OK;
-    const double *numbers = rf_numbers(tables, "mobility_scale", 4, why);
+    const double *numbers = rf_numbers(tables, "mobility_scale", 5, why);
     const uint32_t *n = factors->extent;
     if (!numbers)
         return RF_INVALID;
@@ -49,6 +49,7 @@ int rf_take_mobility(rf_mobility *mobility, const rf_tables *tables, rf_message 
     mobility->last = numbers[1];
     mobility->fixed = numbers[2];
     mobility->density = numbers[3];
+    mobility->local = numbers[4] != 0.0;
     return RF_OK;
 }
 

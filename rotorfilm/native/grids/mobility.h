@@ -16,6 +16,7 @@ typedef struct rf_mobility {
     const double *coefficients; /* RF_FACTORS x 5 more than cells */
     int32_t cells;              /* 0: all factors are 1 */
     int32_t drags;              /* whether that of the Couette flux is not 1 */
+    int32_t local;              /* whether X is that of the local H; else that of H = 1 everywhere */
     double scale, last;         /* the last node in ln(1 + X/scale) */
     double fixed, per_rate;     /* X/H is |rate| per_rate, or where that is 0 it is fixed */
     double density;             /* [kg/m3], of which per_rate is made; 0 where X/H is fixed */
@@ -32,17 +33,23 @@ typedef struct rf_through {
     double flow, slope, grown;
 } rf_through;
 
+/* The thickness that the factors are those of. */
+static inline double rf_eased_at(const rf_mobility *mobility, double H)
+{
+    return mobility->local ? H : 1.0;
+}
+
 /* What pressure drives around or along the bearing: H^3 times the factor at X = growth H. */
 static inline rf_through rf_pressed(const rf_mobility *mobility, rf_factor way, double growth, double H)
 {
     rf_through found = {H * H * H, 3.0 * H * H, 0.0};
     if (mobility->cells > 0) {
         double eased;
-        const double factor = rf_ease(mobility, way, growth * H, &eased);
+        const double at = rf_eased_at(mobility, H), factor = rf_ease(mobility, way, growth * at, &eased);
         eased *= growth * found.flow;
-        found.slope = factor * found.slope + eased;
+        found.slope = factor * found.slope + (mobility->local ? eased : 0.0);
         found.flow *= factor;
-        found.grown = eased * H;
+        found.grown = eased * at;
     }
     return found;
 }
@@ -53,17 +60,17 @@ static inline rf_through rf_dragged_beyond(const rf_mobility *mobility, double g
     rf_through found = {0.0, 0.0, 0.0};
     if (mobility->drags) {
         double eased;
-        const double factor = rf_ease(mobility, RF_OF_DRAG, growth * H, &eased);
+        const double at = rf_eased_at(mobility, H), factor = rf_ease(mobility, RF_OF_DRAG, growth * at, &eased);
         eased *= growth * H;
         found.flow = (factor - 1.0) * H;
-        found.slope = factor - 1.0 + eased;
-        found.grown = eased * H;
+        found.slope = factor - 1.0 + (mobility->local ? eased : 0.0);
+        found.grown = eased * at;
     }
     return found;
 }
 
 /* Take a mobility from the table `mobility` (4 x n) and the numbers `mobility_scale` (scale, last node, fixed X/H,
-   density), where they stay, or none where there are no such tables; RF_INVALID, with the message. */
+   density, whether local), where they stay, or none where there are no such tables; RF_INVALID, with the message. */
 int rf_take_mobility(rf_mobility *mobility, const rf_tables *tables, rf_message *why);
 
 /* Set what X grows by from the dimensions of a bearing: the Reynolds number is density speed radius clearance/viscosity. */

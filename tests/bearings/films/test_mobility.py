@@ -1,5 +1,6 @@
 """A mobility of the oil reaches the films of all bearings: dense matrices, closed forms, scalings."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -223,7 +224,10 @@ def test_force_is_of_degree_one_in_velocity_and_speed(name):
         assert_allclose(by[:, 2:4], by[:, 2:4].T, atol=1e-10 * np.abs(by[:, 2:4]).max())
 
 
-@pytest.mark.parametrize("mobility", [THICK, MOVING], ids=["thick", "turbulent"])
+MOBILITIES = [THICK, MOVING, dataclasses.replace(MOVING, local=False)]
+
+
+@pytest.mark.parametrize("mobility", MOBILITIES, ids=["thick", "turbulent", "one number"])
 @pytest.mark.parametrize("name", NAMES)
 def test_derivatives_are_those_of_differences(name, mobility):
     """By place, velocity and speed, that of the Reynolds number among them."""

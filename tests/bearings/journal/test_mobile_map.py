@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 
 import rotorfilm as rf
 from rotorfilm import InputError, ValidityWarning
-from rotorfilm.bearings import MobileMapFilm, mobility_of
+from rotorfilm.bearings import MobileMapFilm, Turbulence, mobility_of
 from rotorfilm.bearings.journal import ExtrapolatedFilm, ReynoldsFilm
 from rotorfilm.bearings.journal.mobile_map import MobileMapTable
 from rotorfilm.fmu import check_fmu, extracted, instantiated
@@ -75,6 +75,19 @@ def test_force_at_rest_is_damping_times_half_the_speed(bearing):
     damping = -bearing.jacobian(PLACE, np.zeros(2), SPEED)[:, 2:4]
     found = damping @ (0.5 * SPEED * np.array([-PLACE[1], PLACE[0]]))
     assert_allclose(bearing.force(PLACE, np.zeros(2), SPEED), found, rtol=1e-12)
+
+
+@pytest.mark.parametrize("band", [False, True], ids=["no band", "band"])
+def test_one_reynolds_number_is_the_laminar_film_of_another_length(band):
+    effect = Turbulence(closure="reichardt", band=band, density=855.0, local=False)
+    scaled = rf.JournalBearing(**SIZE, film=rf.MapFilm(), turbulence=effect)
+    fine = replace(scaled, film=ExtrapolatedFilm(film=ReynoldsFilm(cells=(192, 16))))
+    for speed in (-SPEED, 40.0, 450.0):
+        wanted = fine.force(PLACE, VELOCITY, speed)
+        assert_allclose(scaled.force(PLACE, VELOCITY, speed), wanted, atol=2e-3 * np.hypot(*wanted))
+        by, exact = (each.jacobian(PLACE, VELOCITY, speed) for each in (scaled, fine))
+        assert_allclose(by[:, :4], exact[:, :4], atol=0.01 * np.abs(exact).max())
+        assert_allclose(by[:, 4], exact[:, 4], atol=0.02 * np.hypot(*exact[:, 4]))
 
 
 def test_losses_are_those_of_the_grid_and_above_laminar_ones(bearing):
