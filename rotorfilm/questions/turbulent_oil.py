@@ -24,7 +24,7 @@ from ..bearings.journal import full_stress_forces
 from ..core.answers import ErrorEstimate, Ladder, LeftOutRemark, Rung, RungResult
 from ..core.errors import RotorfilmError
 from ..core.results import Coefficients
-from ..scenes.film_rungs import FilmCandidate
+from ..scenes.film_rungs import ONE_NUMBER, FilmCandidate
 from ..scenes.turbulent import QUADRATURE, is_left_laminar, other_band, quick, quiet, turbulence_of, warmed
 from ..scenes.turbulent_shaft import JournalStation, highest_speed, left_laminar
 from .conserved_oil import rest_on
@@ -103,7 +103,9 @@ def _counted(ladder: Ladder, step: Callable[[], ErrorEstimate], name: str) -> La
                 better=None,
             )
 
-        return with_estimate(rung, estimate, token)
+        made, film = with_estimate(rung, estimate, token), getattr(rung, "film", None)
+        # Where no film meets the tolerance, the answer is still that of a better film.
+        return replace(made, shares=None) if getattr(film, "name", "") == ONE_NUMBER else made
 
     return replace(ladder, rungs=tuple(counted(rung) for rung in ladder.rungs))
 

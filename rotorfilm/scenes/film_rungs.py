@@ -26,6 +26,9 @@ from .journal_tables import TABLE_RANGE, has_map
 COARSE_MAP = journal.GroovedMapFilm(cells=(96, 8), nodes=(8, 48, 32))
 """Made in a fifth of the time of the map with openings, with errors some four times as large."""
 
+ONE_NUMBER = "one Reynolds number"
+"""Name of the cheapest film of a plain turbulent bearing."""
+
 LOCAL, MEDIUM, FINE, FINEST = (48, 8), (192, 16), (384, 16), (768, 32)
 
 
@@ -122,7 +125,7 @@ def _one_number(bearing: journal.JournalBearing) -> list[FilmRung]:
     whole = replace(bearing, turbulence=replace(effect, local=False))
     film = journal.fitted_bearing(whole, journal.MapFilm())
     rich = extrapolated(bearing, LOCAL)
-    return [FilmRung("one Reynolds number", film, rich, grid_name(LOCAL), 0.1, 0.1)]
+    return [FilmRung(ONE_NUMBER, film, rich, grid_name(LOCAL), 0.1, 0.1)]
 
 
 def _grooved_maps(bearing: journal.JournalBearing) -> list[FilmRung]:
