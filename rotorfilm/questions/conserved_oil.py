@@ -17,7 +17,14 @@ import numpy as np
 
 from ..analysis import equilibrium
 from ..analysis.coefficients import film_coefficients
-from ..bearings.journal import RUPTURE_CELLS, JFOFilm, JournalBearing, both_films, extrapolated_value
+from ..bearings.journal import (
+    RUPTURE_CELLS,
+    JFOFilm,
+    JournalBearing,
+    both_films,
+    extrapolated_value,
+    tilts,
+)
 from ..core.answers import HEATED, ISOTHERMAL, ErrorEstimate, Ladder, LeftOutRemark, Rung, RungResult
 from ..core.errors import InputError, RotorfilmError
 from ..core.port import at_balanced_temperature
@@ -57,9 +64,9 @@ class FilmEquilibrium(JournalEquilibrium):
 
     @property
     def coefficients(self) -> Any:
-        """K and C: smooth ones of Reynolds rupture, else at the frequency of the shaft."""
+        """K and C: at the frequency of the shaft where they depend on it, else smooth ones."""
         film, at = self.reaction, self.at
-        if isinstance(film, JFOFilm):
+        if hasattr(film, "at_rest"):
             return film_coefficients(film, at.position, at.speed)
         slopes = tangent(film, at.position, at.speed, smooth=True)[1]
         return Corrected(position=at.position, slopes=slopes, doubt="")
@@ -174,8 +181,12 @@ OF_PADS = (
 
 
 def supply_of(table: ConservingTable, bearing: Any) -> str | None:
-    """Return why the oil of a bearing cannot be conserved, empty if it can; None without an opening."""
-    if bearing.geometry.plain:
+    """Return why the oil of a bearing cannot be conserved, empty if it can; None where nothing depends on it.
+
+    So it is without an opening. Tilting pads between full gaps converge to their outlet or rupture there
+    once, where both kinds of rupture agree.
+    """
+    if bearing.geometry.plain or tilts(bearing):
         return None
     if getattr(table, "tilt", None) is not None:
         return "the journal keeps a tilt"
@@ -266,8 +277,9 @@ def conserved_rungs(scene: Scene, question: Any) -> tuple[FunctionRung, ...]:
     if not (bearing.is_warming and question.follows_oil):
         return tuple(conserved_rung(question, film) for film in films)
     heat = partial(_heat_of_balance, question, films[0])
+    levels = () if tilts(bearing) else question.levels
     uniform = tuple(conserved_rung(question, film, heat) for film in films)
-    return (*uniform, *(field_rung(question, level, any_candidate(films[0])) for level in question.levels))
+    return (*uniform, *(field_rung(question, level, any_candidate(films[0])) for level in levels))
 
 
 def conserved_rung(

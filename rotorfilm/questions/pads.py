@@ -369,7 +369,7 @@ def tilting_static_ladder(scene: Scene, quantity: str) -> Ladder:
 
 
 def _films(scene: Scene) -> tuple[TiltingCandidate, ...]:
-    return tilting_candidates(scene.table("tilting_pad").build(), fixed=scene.film_is_given)
+    return tilting_candidates(scene.table("tilting_pad").bearing(), fixed=scene.film_is_given)
 
 
 # The orbit that an unbalance makes on tilting pads, which move in time with the journal.

@@ -34,7 +34,10 @@ PAD_FILMS: dict[str, Callable[[], Keyed[pad_bearings.PadFilm]]] = {
 """`film = {name = "map"}`: the films of a pad by their names."""
 
 JFO = {"jfo": FILMS["jfo"]}
-"""That of all fixed pads which conserves its oil."""
+"""That of all pads which conserves its oil."""
+
+FilmOfPads = Annotated[pad_bearings.PadFilm | ConservedOil | None, Variant("name", {**PAD_FILMS, **JFO})]
+"""What `film` may name."""
 
 
 def usual_film(extents: Iterable[float], radius: float, length: float) -> pad_bearings.PadFilm:
@@ -57,10 +60,10 @@ def pad_film_name(film: pad_bearings.PadFilm | pad_bearings.PressureDamBearing) 
 
 @dataclass(frozen=True, kw_only=True)
 @fields_of(pad_bearings.LobedBearing, without=("lobes", "film"))
-class PadTable(OiledTable):
+class PadTable(ConservingTable, OiledTable):
     """The table of a lobed, pressure-dam or tilting-pad bearing.
 
-    A family adds its pads, `data`, `film_key` and `build`.
+    A family adds its pads, `data`, `film_key` and `bearing`.
 
     Attributes
     ----------
@@ -91,10 +94,6 @@ class PadTable(OiledTable):
             table: Any = self
             replace(table, viscosity=1.0)
 
-    def build(self) -> AnyPads:
-        """Return the bearing; raise InputError where a value breaks its rule."""
-        raise NotImplementedError
-
     def repeated_inputs(self, bearing: AnyPads | JFOFilm) -> tuple[PadData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
         if isinstance(bearing, JFOFilm):
@@ -116,7 +115,7 @@ class PadTable(OiledTable):
 
     def make_map(self, report: Report) -> None:
         """Make the maps of the pads, where the film is one, unless they lie on disk."""
-        bearing = self.build()
+        bearing = self.bearing()
         film = bearing.film if hasattr(bearing, "extents") and hasattr(bearing, "film") else None
         if isinstance(film, pad_bearings.PadMapFilm):
             for extent in sorted(set(bearing.extents)):
@@ -299,7 +298,7 @@ OF_PRESET = ("preload", "extent", "offset", "turned")
 
 @dataclass(frozen=True, kw_only=True)
 @fields_of(pad_bearings.lobe_set, without=("name",), optional=True)
-class LobedTable(ConservingTable, PadTable):
+class LobedTable(PadTable):
     """`[lobed_journal]`: a journal bearing of fixed pads: elliptical, of several lobes, of offset halves.
 
     Parameters
@@ -316,7 +315,7 @@ class LobedTable(ConservingTable, PadTable):
     """
 
     data = LobedData
-    film: Annotated[pad_bearings.PadFilm | ConservedOil | None, Variant("name", {**PAD_FILMS, **JFO})] = None
+    film: FilmOfPads = None
     preset: Annotated[str | None, one_of(pad_bearings.SETS)] = None
     lobes: tuple[pad_bearings.Lobe, ...] = ()
 
@@ -345,7 +344,7 @@ FURTHER = ("track_depth", "track_share", "groove", "preload")
 
 @dataclass(frozen=True, kw_only=True)
 @fields_of(pad_bearings.pressure_dam_pads, optional=True)
-class DamTable(ConservingTable, PadTable):
+class DamTable(PadTable):
     """`[pressure_dam]`: a journal bearing of fixed pads with a pressure dam, a step or a relief track.
 
     Parameters
@@ -412,7 +411,7 @@ class TiltingTable(PadTable):
 
     Parameters
     ----------
-    film : PadFilm or None
+    film : PadFilm, ConservedOil or None
         The film law; if the file does not say, the map of a pad, or what a question needs.
     pad_count : int or None
         Number of evenly spaced pads; give this, with `loading`, or `pivots`.
@@ -423,7 +422,7 @@ class TiltingTable(PadTable):
     """
 
     data = TiltingData
-    film: Annotated[pad_bearings.PadFilm | None, Variant("name", PAD_FILMS)] = None
+    film: FilmOfPads = None
     pad_count: Annotated[int | None, Count(PADS, 2)] = None
     loading: Annotated[str | None, one_of(LOADINGS)] = None
     pivots: Annotated[
@@ -441,12 +440,12 @@ class TiltingTable(PadTable):
             )
         super().__post_init__()
 
-    def build(self) -> pad_bearings.TiltingPadBearing:
+    def bearing(self) -> pad_bearings.TiltingPadBearing:
         """Return the bearing; raise InputError where a value breaks its rule."""
         pivots = self.pivots
         if self.pad_count is not None and self.loading is not None:
             pivots = pad_bearings.even_pivots(self.pad_count, between_pads=LOADINGS[self.loading])
-        film = self.film or usual_film([self.extent], self.radius, self.length)
+        film = self.named_film or usual_film([self.extent], self.radius, self.length)
         return made_from(
             pad_bearings.TiltingPadBearing, self, pivots=pivots, film=film, turbulence=effect_of(self)
         )

@@ -75,6 +75,12 @@ class ConservedCells(NamedTuple):
         return gaps - np.sum(share[:, :, None] * gaps, axis=0)
 
     @property
+    def film(self) -> Array:
+        """1 where there is a film after a line, and 0 in openings over the whole length, shape (N,)."""
+        held = np.all(self.opening != FILM, axis=1)
+        return 1.0 - (held & np.roll(held, -1))
+
+    @property
     def face(self) -> Array:
         """Places half-way to the next lines, shape (N,) [rad]."""
         return self.angle + 0.5 * self.spacing
@@ -425,16 +431,19 @@ class Gap(NamedTuple):
         Line and face at the cells, and at the faces after them around the film.
     side : ndarray, shape (N, M + 1)
         Side at the faces of the cells along the bearing.
+    beside : ndarray, shape (2, N, M)
+        By how much the gap just before and just behind a line differs from that of its cell.
     """
 
     line: Array
     face: Array
     side: Array
+    beside: Array = np.zeros((2, 1, 1))
 
     @property
     def struct(self) -> Any:
         """What C reads."""
-        return in_c("rf_oil_gap", *self)
+        return in_c("rf_oil_gap", *self[:3])
 
 
 class Supply(NamedTuple):
@@ -602,7 +611,11 @@ class ConservedFilm:
         block = np.empty(lines * (3 * along + 1))
         loops()["rf_circular_gap"](byref(self.shape), full, address(places), address(block))
         line, face = block[: 2 * lines * along].reshape(2, lines, along)
-        return Gap(line, face, block[2 * lines * along :].reshape(lines, along + 1))
+        return Gap(line, face, block[2 * lines * along :].reshape(lines, along + 1), full * self._beside)
+
+    @cached_property
+    def _beside(self) -> Array:
+        return self.cells.beside
 
     def solve(
         self,
@@ -715,7 +728,7 @@ class ConservedFilm:
         Up to the edges of openings: of the cell of an edge half is film, and full. That factor is 1 where the
         integral is to be that of a laminar film.
         """
-        cells, gap = self.cells, state.gap.line + self.cells.beside
+        cells, gap = self.cells, state.gap.line + state.gap.beside
         per_gap, film = 1.0 / gap, cells.opening == FILM
         if self.mobility is not None and not laminar:
             grown = self.mobility.at_rate(np.array([state.rate]), self.reynolds_scale)

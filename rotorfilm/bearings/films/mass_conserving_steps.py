@@ -71,12 +71,16 @@ class FilmInMotion:
         Unit of the stiffness; with 1 it is without dimensions [1/s].
     axes : ndarray, shape (n, freedoms), optional
         What makes forces of those of the film; its transpose makes its places.
+    parts : ndarray, shape (P, N), optional
+        1 for the lines of each of P parts between openings, 0 for others. K(s) then has the rows of one part
+        after the other, with the columns of a journal that moves in all of them.
     """
 
     film: ConservedFilm
     state: ConservedState
     scale: float = 1.0
     axes: Array | None = None
+    parts: Array | None = None
 
     def __call__(self, s: complex) -> tuple[Complex, Complex]:
         """Return K(s) and dK/ds; the storage of the cavity as in `stiffness`.
@@ -156,6 +160,18 @@ class FilmInMotion:
         K = felt[:, m : m + n] + s * felt[:, m + n :] + felt[:, :m] @ moved
         return self.scale * K, self.scale * (felt[:, m + n :] + felt[:, :m] @ (answer @ late))
 
+    def force(self) -> Array:
+        """Return the force of the film, of one part after the other, shape (rows,)."""
+        P = self.state.solution.pressure - self.film.supply.end_pressure
+        return np.asarray(-12.0 * self.scale * np.tensordot(self._weights, P, 2))
+
+    @cached_property
+    def _weights(self) -> Array:
+        weights = self.film.weights
+        if self.parts is None:
+            return weights
+        return (self.parts[:, None, :, None] * weights).reshape(-1, *weights.shape[1:])
+
     @cached_property
     def _turns(self) -> Array:
         """Twice the angles over which the lines extend, shape (N, 1) [rad]."""
@@ -203,7 +219,7 @@ class FilmInMotion:
     def _force(self, change: Complex | Array) -> Any:
         """Return 12 integral of n dP for the changes (K, N, M), shape (freedoms, K)."""
         pressure = np.where(self.state.solution.full, change, 0.0)
-        changes = 12.0 * np.tensordot(self.film.weights, pressure, ((1, 2), (1, 2)))
+        changes = 12.0 * np.tensordot(self._weights, pressure, ((1, 2), (1, 2)))
         return changes if self.axes is None else self.axes @ changes
 
     def _wave(self, s: complex) -> tuple[Complex, Complex]:
@@ -378,6 +394,8 @@ class ScaledFilm:
         To each opening, in place of a pressure.
     stiffness : float or None [N/m]
         Stiffness of springs beside the film; None where there are none.
+    pads : FrozenTiltingPads or None
+        Pads that tilt on the film, whose wall is that of pads without tilt; None of fixed ones.
     """
 
     film: ConservedFilm
@@ -392,6 +410,7 @@ class ScaledFilm:
     supply_pressure: float | None = None
     supply_flow: float | None = None
     stiffness: float | None = None
+    pads: Any = None
 
     @property
     def force(self) -> float:
@@ -417,9 +436,10 @@ class ScaledFilm:
         """Return pressures of the film as gauge pressures [Pa]."""
         return self.pressure * np.maximum(pressure, 0.0) + self.cavitation_pressure
 
-    def about(self, state: ConservedState, axes: Array | None = None) -> FilmInMotion:
-        """Return K(s) of a film in N/m, in the axes that are given."""
-        return FilmInMotion(self.film, state, self.force / self.clearance, axes)
+    def about(self, state: ConservedState, axes: Array | None = None) -> Any:
+        """Return K(s) of a film in N/m, in the axes that are given, with its pads free to tilt."""
+        motion = FilmInMotion(self.film, state, self.force / self.clearance, axes)
+        return motion if self.pads is None else self.pads.freed(motion)
 
     def fields(self, state: ConservedState) -> dict[str, Any]:
         """Return what the states of journal films and dampers have in common, by their names."""
@@ -507,6 +527,11 @@ def _film_in_c(scaled: ScaledFilm) -> Any:
     if scaled.film.fluidity is not None:
         raise InputError(
             "film must have one viscosity for steps in time and FMUs, got that of a frozen temperature field"
+        )
+    if scaled.pads is not None:
+        raise InputError(
+            "bearing must have pads that do not tilt for steps in time and FMUs of a film that conserves its "
+            "oil, got a TiltingPadBearing"
         )
     units = scaled.clearance, scaled.carrying, scaled.force, scaled.oil
     return in_c("rf_oil_film_si", shape_of(scaled.film), *units, LARGEST_ANGLE, LARGEST_WAY)

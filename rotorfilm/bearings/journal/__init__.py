@@ -48,6 +48,7 @@ if TYPE_CHECKING:
         RuptureError as RuptureError,
         both_films,
         rupture_error as rupture_error,
+        tilts,
     )
     from .map_film import MapFilm as MapFilm, bearing_table
     from .mobile_map import MobileMapFilm, MobileMapTable

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -526,6 +526,9 @@ class FrozenFilm(StaticReaction):
     def nominal_force(self) -> float:
         """Typical force [N]."""
         return float(self.bearing.nominal_force)
+
+    pulls: ClassVar[bool] = False
+    """Whether pressures below ambient may hold a pad."""
 
     @property
     def reaction(self) -> Any:

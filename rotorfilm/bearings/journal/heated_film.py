@@ -43,7 +43,7 @@ from .energy_equation import (
     Walls,
 )
 from .film_flow import FilmCells, FilmFlow, FrozenFilm, fed_film, film_cells, film_weight, in_cells, through
-from .jfo_film import ArcBearing, JFOFilm, jfo_state
+from .jfo_film import ArcBearing, JFOFilm, jfo_state, require_fixed
 from .reynolds_film import ReynoldsFilm
 
 # Film and temperature solved in turn until both rest: what films with a field share (T2 and T3).
@@ -542,6 +542,7 @@ class HeatedJFOFilm(HeatRounds):
 
     def __post_init__(self) -> None:
         require_kind("film", self.film, JFOFilm, "a JFOFilm of a bearing with oil and cooling")
+        require_fixed(self.film)
         if self.film.mobility is not None:
             raise InputError(f"film must have mobility=None for HeatedJFOFilm, got {self.film.mobility!r}")
         self._require_heat()

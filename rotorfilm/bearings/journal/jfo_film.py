@@ -93,7 +93,7 @@ def opening_pressure(film: ConservedFilm, state: ConservedState) -> Array:
 class ArcBearing(Protocol):
     """A bearing whose wall are arcs, about its own center or each about one of its own, as `LobedBearing`.
 
-    Pads that tilt are without tilt here, and `on_frozen` puts them on a film.
+    Pads that tilt are without tilt here, and `on_frozen` puts them on a film around all of them.
     """
 
     @property
@@ -119,7 +119,7 @@ AT_REST = np.eye(2)
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class JFOFilm(MassConserving):
-    """The film of a fixed bearing with mass-conserving cavitation (Jakobsson, Floberg and Olsson).
+    """The film of a bearing with mass-conserving cavitation (Jakobsson, Floberg and Olsson).
 
     Behind the rupture the oil flows on in a partly filled gap, until there is enough oil to form a film
     again. So the film starts where oil is supplied, and not where Reynolds' rupture starts it: the supply by
@@ -132,12 +132,13 @@ class JFOFilm(MassConserving):
 
     Parameters
     ----------
-    bearing : JournalBearing, LobedBearing or PressureDamBearing
+    bearing : JournalBearing, LobedBearing, PressureDamBearing or TiltingPadBearing
         The bearing with its supply: short grooves, feed holes, a circumferential groove, or grooves over the
         whole length at ambient pressure. Gaps between pads are full of oil at ambient pressure. Its own film
         law is not used. With an oil and a cooling, `equilibrium` finds the film temperature too. Its
         turbulence acts on pressure flow and shear: in the cavity with the factors of a full gap, on the part
-        of it that is oil.
+        of it that is oil. Each tilting pad stands so that its film has no moment about the pivot. Tilting
+        pads have no steps in time, and with a cavity below ambient pressure all must carry a load.
     cells : tuple of int
         Approximate numbers of lines around the film and of cells along half the length; even.
     supply_flow : float or None [m3/s]
@@ -184,7 +185,7 @@ class JFOFilm(MassConserving):
     mobility: Mobility | None = None
 
     def __post_init__(self) -> None:
-        require_fixed(self.bearing)
+        require_arcs(self.bearing)
         require_no_mobility(self.bearing, "JFOFilm")
         require_mobility(self.mobility)
         if self.mobility is not None and self.bearing.turbulence is not None:
@@ -245,6 +246,7 @@ class JFOFilm(MassConserving):
             supplied=supplied,
             supply_pressure=supply_pressure(bearing) if pressed else None,
             supply_flow=self.supply_flow,
+            pads=bearing.on_frozen(OilOnPads(self, film)) if tilts(bearing) else None,
         )
 
     @arguments
@@ -308,16 +310,18 @@ class JFOFilm(MassConserving):
         """Return the film of a journal at rest, in axes at rest; InputError unless the velocity is 0."""
         require_at_rest(velocity)
         self.require_film(position)
-        film = self.film
-        return film.solve(film.gap(position / self.clearance), 0.5 * speed), AT_REST, 0.0
+        film, place, pads = self.film, position / self.clearance, self.scaled.pads
+        if pads is not None:
+            film, place = pads.film.tilted(pads.eccentricity(position, speed)), np.zeros(2)
+        return film.solve(film.gap(place), 0.5 * speed), AT_REST, 0.0
 
     def at_temperature(self, temperature: float) -> JFOFilm:
         """Return this film at one temperature [K]; raises InputError if its bearing has no oil."""
         return replace(self, bearing=self.bearing.at_temperature(temperature))
 
-    def at_rest(self) -> JFOFilm:
-        """Return this film itself, because its force is that of a journal at rest."""
-        return self
+    def at_rest(self) -> Any:
+        """Return this film itself, whose force is that of a journal at rest, or the pads that tilt on it."""
+        return self.scaled.pads if tilts(self.bearing) else self
 
     def losses(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> BearingLosses:
         """Return power loss, torques and oil flow of a journal at rest, openings in the order of `inflow`.
@@ -442,6 +446,7 @@ class MomentCarryingJFOFilm(TiltedJournal, ConservedAtRest):
 
     def __post_init__(self) -> None:
         require_kind("film", self.film, JFOFilm, "a JFOFilm")
+        require_fixed(self.film)
         if self.bearing.geometry.circumferential:
             raise InputError(
                 "film must be of a bearing without a circumferential groove, got a groove of "
@@ -485,11 +490,60 @@ class MomentCarryingJFOFilm(TiltedJournal, ConservedAtRest):
         return self
 
 
-def require_fixed(bearing: object) -> None:
-    """Raise InputError unless a bearing is one of arcs that stand."""
-    require_kind("bearing", bearing, ArcBearing, "a JournalBearing, LobedBearing or PressureDamBearing")
-    if hasattr(bearing, "on_frozen"):
-        raise InputError(f"bearing must have pads that do not tilt for JFOFilm, got {kind_of(bearing)}")
+def require_arcs(bearing: object) -> None:
+    """Raise InputError unless a bearing is one of arcs."""
+    require_kind("bearing", bearing, ArcBearing, "a JournalBearing or a bearing of pads")
+
+
+def require_fixed(film: JFOFilm) -> None:
+    """Raise InputError where the pads of a film tilt."""
+    if tilts(film.bearing):
+        raise InputError(f"film must be of pads that do not tilt, got that of {kind_of(film.bearing)}")
+
+
+def tilts(bearing: object) -> bool:
+    """Return whether a bearing has pads that tilt on a film around all of them."""
+    return hasattr(bearing, "on_frozen")
+
+
+@dataclass(frozen=True, eq=False)
+class OilOnPads:
+    """The film around tilting pads as these ask for it: how it answers where each sees the journal.
+
+    Parameters
+    ----------
+    reaction : JFOFilm
+        The film with its pads.
+    film : ConservedFilm
+        The film of pads without tilt.
+    """
+
+    reaction: JFOFilm
+    film: ConservedFilm
+    frozen_at = None
+
+    @property
+    def cells(self) -> ConservedCells:
+        """Cells of the film."""
+        return self.film.cells
+
+    @property
+    def pulls(self) -> bool:
+        """Whether pressures below ambient may hold a pad."""
+        return self.film.supply.end_pressure > 0.0
+
+    def tilted(self, eccentricity: Array) -> ConservedFilm:
+        """Return the film whose lines see the journal at (2, N), in clearances, from pads without tilt."""
+        cells: Any = self.cells
+        return replace(self.film, cells=cells._replace(wall=cells.wall - wall_about(cells, eccentricity)))
+
+    def responses(self, eccentricity: Array, squeeze: Array, speed: float, lines: Array) -> Array:
+        """Return the force of each pad and its slopes, shape (P, 2, 6), as `FrozenFilm.responses`."""
+        film = self.tilted(eccentricity)
+        motion = FilmInMotion(film, film.solve(film.gap(squeeze), 0.5 * speed), parts=lines)
+        K, C, by_speed = motion.slow()
+        columns = motion.force()[:, None], -K, -C, by_speed[:, None]
+        return np.hstack(columns).reshape(len(lines), 2, 6)
 
 
 def supply_pressure(bearing: Any) -> float:
@@ -500,15 +554,14 @@ def supply_pressure(bearing: Any) -> float:
 def wall_of(bearing: ArcBearing, cells: ConservedCells) -> Array | None:
     """Return the gap of the centered journal over the clearance, as of `ConservedCells.wall`."""
     centers = bearing.centers_at(cells.face)
-    if centers is None:
-        return None
-    beside = centers, np.roll(centers, 1, axis=1), centers
-    return np.array(
-        [
-            1.0 + np.sum(own * direction(angle), axis=0)
-            for own, angle in zip(beside, (cells.face, cells.angle, cells.angle), strict=True)
-        ]
-    )
+    return None if centers is None else 1.0 + wall_about(cells, centers)
+
+
+def wall_about(cells: ConservedCells, centers: Array) -> Array:
+    """Return by how much centers of curvature (2, N), over the clearance, widen the gap, as of a wall."""
+    rows = centers, np.roll(centers, 1, axis=1), centers
+    angles = cells.face, cells.angle, cells.angle
+    return np.array([np.sum(own * direction(at), axis=0) for own, at in zip(rows, angles, strict=True)])
 
 
 def require_at_rest(velocity: Array) -> None:
@@ -717,7 +770,7 @@ def rupture_error(bearing: Any, position: ArrayLike, speed: float) -> RuptureErr
     >>> rupture_error(bearing, position=[30e-6, -50e-6], speed=314.2).side_flow_error > 0.3
     True
     """
-    require_fixed(bearing)
+    require_arcs(bearing)
     if speed == 0.0:
         raise InputError("speed must not be zero for a film that ruptures, got 0.0")
     place, rest = require_vector("position", position), np.zeros(2)

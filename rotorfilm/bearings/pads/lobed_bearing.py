@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -36,7 +36,6 @@ from .pad_bearing import (
     OwnCenter,
     PadBearing,
     PadUnderJournal,
-    cells_on_each,
     heat_slopes_of_pads,
     losses_of_pads,
 )
@@ -263,10 +262,6 @@ class LobedBearing(FilmReaction, PadBearing):
         super().__post_init__()
         film = fitted_pad_film(self.film, self.preloads, self.extents, self.slenderness)
         object.__setattr__(self, "film", film)
-
-    def on_cells(self, around: int, along: int) -> LobedBearing:
-        """Return this bearing on a grid of about so many cells around all lobes and along half the length."""
-        return replace(self, film=PadGridFilm(cells=cells_on_each(around, along, len(self.lobes))))
 
     def minimum_film(self, position: ArrayLike) -> Array:
         """Return the least film on any pad [m], shape (...), of journals at positions (2, ...) [m].

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple, cast
 
@@ -180,6 +180,13 @@ class PadBearing(WarmBearing):
     def centers_at(self, angle: Array) -> Array:
         """Return the centers of curvature of the walls at angles (N,) [rad], in clearances, shape (2, N)."""
         return np.array([arc.center for arc in self.arcs])[self.arc_at(angle)].T
+
+    def on_cells(self, around: int, along: int) -> Any:
+        """Return this bearing on a grid of about so many cells around all pads and along half the length."""
+        from .pad_film import PadGridFilm
+
+        bearing: Any = self
+        return replace(bearing, film=PadGridFilm(cells=cells_on_each(around, along, len(self.arcs))))
 
     @property
     def clearance(self) -> float:

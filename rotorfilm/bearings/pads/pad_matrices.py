@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,13 +118,23 @@ class PadMatrices(Readable):
 
     def dynamic_stiffness(self, s: complex) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
         """Return Z(s) of the journal, shape (2, 2), and dZ/ds; s is an exponent [1/s]."""
-        pads = self._loaded
         whole = self.stiffness + s * self.damping + s * s * self.mass
+        follow, push, kept = following(whole, self._loaded)
         slope = self.damping + 2.0 * s * self.mass
-        if not pads:
-            return whole[:2, :2], slope[:2, :2]
-        inner = whole[np.ix_(pads, pads)]
-        follow = np.vstack([np.eye(2), -np.linalg.solve(inner, whole[pads, :2])])
-        push = np.hstack([np.eye(2), -np.linalg.solve(inner.T, whole[:2, pads].T).T])
-        kept = [0, 1, *pads]
         return whole[:2, kept] @ follow, push @ slope[np.ix_(kept, kept)] @ follow
+
+
+def following(whole: NDArray[Any], loaded: list[int]) -> tuple[NDArray[Any], NDArray[Any], list[int]]:
+    """Return how loaded coordinates follow the journal, what they push it by, and which are not left out.
+
+    Parameters
+    ----------
+    whole : ndarray, shape (n, n) [N/m]
+        Stiffness of journal and pads together.
+    loaded : list of int
+        Coordinates of the pads that have a film.
+    """
+    inner = whole[np.ix_(loaded, loaded)]
+    follow = np.vstack([np.eye(2), -np.linalg.solve(inner, whole[loaded, :2])])
+    push = np.hstack([np.eye(2), -np.linalg.solve(inner.T, whole[:2, loaded].T).T])
+    return follow, push, [0, 1, *loaded]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
@@ -34,7 +34,7 @@ from ...native.pad_kernels import RestPoint
 from ..reaction import broadcast_state
 from .pad_bearing import WEDGE, PadUnderJournal, losses_of_pads
 from .pad_film import PadGridFilm, least_films, warn_beyond_map
-from .pad_matrices import PadMatrices
+from .pad_matrices import PadMatrices, following
 from .pad_table import LossyPadFilm, least_film
 
 # Where the pivots of tilting pads lie, and how much room they leave.
@@ -359,7 +359,12 @@ class StaticTiltingPads:
             "eccentricity_ratio": math.hypot(*found.position) / self.bearing.clearance,
             "minimum_film": float(pads.film_thickness.min()),
         }
-        return PadEquilibrium(**known, pads=pads, reaction=self)
+        return PadEquilibrium(**known, pads=pads, reaction=self.reaction)
+
+    @property
+    def reaction(self) -> Any:
+        """What has the losses: these pads, or the film that they tilt on."""
+        return self
 
     def pad_states(self, position: ArrayLike, speed: float) -> TiltedPads:
         """Return the pads under a journal at rest.
@@ -433,37 +438,31 @@ class StaticTiltingPads:
             As `force`.
         """
         bearing, pads = self.bearing, self.pad_states(position, speed)
-        N, c, Q = len(bearing.pivots), bearing.clearance, directions(bearing.pivots)
-        sprung = bearing.pivot_stiffness is not None
+        c, Q = bearing.clearance, directions(bearing.pivots)
         local = np.einsum("kij,i->jk", Q, np.asarray(position, dtype=float))
         e = (local + np.stack([pads.pivot_deflections, pads.tilts])) / c + np.array(
             [[bearing.preload], [0.0]]
         )
-        loaded = np.flatnonzero(~pads.unloaded)
+        loaded = ~pads.unloaded
         half = 0.5 * float(speed) * WEDGE
         by_e, by_w = slopes(bearing, e[:, loaded], half @ e[:, loaded])
-        n = 2 + N * (2 if sprung else 1)
-        K, C, M = np.zeros((3, n, n))
-        for one, k in enumerate(loaded):
-            B = np.zeros((2, n))
-            B[:, :2] = Q[k].T
-            B[1, 2 + k] = 1.0
-            if sprung:
-                B[0, 2 + N + k] = 1.0
-            scale = -bearing.force_scale / c
-            K += scale * B.T @ (by_e[..., one] + by_w[..., one] @ half) @ B
-            C += scale * B.T @ by_w[..., one] @ B
-        masses = [bearing.reduced_inertia] * N + [bearing.pad_mass or 0.0] * (n - 2 - N)
-        M[range(2, n), range(2, n)] = masses
-        if sprung:
-            K[range(2 + N, n), range(2 + N, n)] += bearing.pivot_stiffness or 0.0
+        moved = by_e + np.einsum("ijk,jl->ilk", by_w, half)
+        return self._joined(position, speed, loaded, (moved.transpose(2, 0, 1), by_w.transpose(2, 0, 1)))
+
+    def _joined(
+        self, position: ArrayLike, speed: float, loaded: np.ndarray, slopes: tuple[Array, Array]
+    ) -> PadMatrices:
+        """Return the matrices from dF/d(place) and dF/d(rate) of loaded pads, (n, 2, 2), unscaled."""
+        bearing, parts = self.bearing, np.zeros((2, len(loaded), 2, 2))
+        parts[:, loaded] = -bearing.force_scale / bearing.clearance * np.array(slopes)
+        K, C, M = joined(bearing, parts)
         return PadMatrices(
             stiffness=K,
             damping=C,
             mass=M,
             position=np.asarray(position, dtype=float),
             speed=float(speed),
-            unloaded=pads.unloaded,
+            unloaded=~loaded,
         )
 
     def modes(self, position: ArrayLike, speed: float, rotor_mass: float) -> NDArray[np.complex128]:
@@ -485,7 +484,7 @@ class StaticTiltingPads:
         return self.bearing.kernel.at_rest(position, speed)
 
 
-# Tilting pads on a film whose temperature is a field: each has a film of its own viscosity.
+# Tilting pads on one film around all of them: its temperature is a field, or it conserves its oil.
 
 
 QUICK = PadGridFilm(cells=(32, 4))
@@ -497,20 +496,25 @@ STEPS, SETTLED, SHARE = 60, 1e-13, 0.5
 
 @dataclass(frozen=True, eq=False)
 class FrozenTiltingPads(StaticTiltingPads):
-    """Tilting pads on a film whose oil keeps its temperature, under a journal at rest.
+    """Tilting pads on one film around all of them, under a journal at rest.
 
-    Each pad stands so that the film of its own viscosity has no moment about its pivot, and a pivot on a
-    spring where that carries the film. Whether a pad has a film at all does not depend on its viscosity: a
-    film of one viscosity tells it.
+    The film is one whose oil keeps its temperature, or one that conserves its oil. Each pad stands so that
+    its film has no moment about its pivot, and a pivot on a spring where that carries the film. A film of
+    one viscosity with Reynolds rupture tells whether a pad has a film at all.
 
     Parameters
     ----------
     bearing : TiltingPadBearing
-    film : FrozenFilm
+    film : FrozenFilm or OilOnPads
         Around all pads, as if they had no tilt.
     """
 
     film: Any
+
+    @property
+    def reaction(self) -> Any:
+        """The film with its pads."""
+        return self.film.reaction
 
     @property
     def cells(self) -> Any:
@@ -559,14 +563,15 @@ class FrozenTiltingPads(StaticTiltingPads):
 
     def matrices(self, position: ArrayLike, speed: float, slopes: Any = None) -> PadMatrices:
         """Return stiffness, damping and mass of journal and pads; see `StaticTiltingPads.matrices`."""
-        place = np.asarray(position, dtype=float)
-        tilted = self._tilted(place, speed)
+        tilted = self._tilted(np.asarray(position, dtype=float), speed)
+        by_place, by_rate = (slope[tilted.loaded] for slope in tilted.slopes)
+        return self._joined(position, speed, tilted.loaded, (by_place, by_rate))
 
-        def own(bearing: Any, e: Array, w: Array) -> tuple[Array, Array]:
-            by_e, by_w = (slope[tilted.loaded].transpose(1, 2, 0) for slope in tilted.slopes)
-            return by_e - np.einsum("ijk,jl->ilk", by_w, 0.5 * speed * WEDGE), by_w
-
-        return super().matrices(position, speed, own)
+    def freed(self, motion: Any) -> FreePads:
+        """Return K(s) of the film of a state with its pads free to tilt."""
+        pressure = motion.state.solution.pressure - motion.film.supply.end_pressure
+        loads = self._lines @ np.abs(pressure).max(axis=1)
+        return FreePads(self.bearing, replace(motion, parts=self._lines), loads > UNLOADED * loads.max())
 
     def eccentricity(self, position: Array, speed: float) -> Array:
         """Return where the film at each line sees the journal from untilted pads, (2, N), in clearances."""
@@ -583,20 +588,26 @@ class FrozenTiltingPads(StaticTiltingPads):
         report_pads(bearing, quick.status, quick.pad, position)
         places = np.stack([quick.pads["pivot"], quick.pads["tilt"]]) / c
         Q, R, loaded = directions(bearing.pivots), turning(bearing), quick.pads["unloaded"] == 0.0
+        if self.film.pulls and not loaded.all():
+            raise ConvergenceError(
+                "cavitation_pressure must be 0 where a pad has no film that carries it, since a cavity below "
+                f"ambient pressure pulls it to the journal, at {_pad_name(bearing, int(loaded.argmin()))}"
+            )
         middle = np.einsum("kij,i->jk", Q, position / c) + np.array([[bearing.preload], [0.0]])
         spring = (bearing.pivot_stiffness or 0.0) * c / bearing.force_scale
         for _ in range(STEPS):
             response = self.film.responses(self._seen(position, places), np.zeros(2), speed, self._lines)
-            force = np.einsum("kai,ka->ki", Q, response[:, :, 0])
+            force, by_speed = (np.einsum("kai,ka->ki", Q, response[:, :, k]) for k in (0, 5))
             by_e, by_w = (np.einsum("kai,kab,kbj->kij", Q, response[:, :, k : k + 2], Q) for k in (1, 3))
-            tilted = TiltedFilm(places, force, (by_e, by_w), loaded & (by_e[:, 1, 1] != 0.0))
+            moment = loaded & (by_e[:, 1, 1] != 0.0)
+            tilted = TiltedFilm(places, force, (by_e, by_w), by_speed, moment)
             least = least_film(R @ (middle + places), bearing.extent)
             move = _newton_step(tilted, spring) * tilted.loaded
             places = places + move * np.minimum(1.0, SHARE * least / np.maximum(np.hypot(*move), 1e-300))
             if np.abs(move).max() <= SETTLED:
                 return tilted
         raise ConvergenceError(
-            f"the tilts of pads on a warm film must be found within {STEPS} steps, and were not, with a "
+            f"the tilts of pads on their film must be found within {STEPS} steps, and were not, with a "
             f"journal at {position.tolist()} m"
         )
 
@@ -604,14 +615,15 @@ class FrozenTiltingPads(StaticTiltingPads):
         bearing, c, scale = self.bearing, self.bearing.clearance, self.bearing.force_scale
         tilted = self._tilted(position, speed)
         by_e, Q, loaded = tilted.slopes[0], directions(bearing.pivots), tilted.loaded
-        pull = by_e[:, 0, 1] * by_e[:, 1, 0] / np.where(loaded, by_e[:, 1, 1], 1.0)
-        own = -scale / c * np.where(loaded, by_e[:, 0, 0] - pull, 0.0)
+        turn = by_e[:, 0, 1] / np.where(loaded, by_e[:, 1, 1], 1.0)
+        own = -scale / c * np.where(loaded, by_e[:, 0, 0] - turn * by_e[:, 1, 0], 0.0)
+        quicker = -scale * np.where(loaded, tilted.by_speed[:, 0] - turn * tilted.by_speed[:, 1], 0.0)
         spring = bearing.pivot_stiffness
         share = np.ones(len(own)) if spring is None else spring / (spring + own)
         normal, load = Q[:, :, 0], -scale * np.where(loaded, tilted.force[:, 0], 0.0)
         slopes = np.zeros((2, 5))
         slopes[:, :2] = -(normal.T * (own * share)) @ normal
-        slopes[:, 4] = -(load * share / speed) @ normal if speed else 0.0
+        slopes[:, 4] = -(quicker * share) @ normal
         middle = np.einsum("kij,i->jk", Q, position / c) + np.array([[bearing.preload], [0.0]])
         pads = {
             "tilt": c * tilted.places[1],
@@ -621,6 +633,84 @@ class FrozenTiltingPads(StaticTiltingPads):
             "unloaded": (~loaded).astype(float),
         }
         return RestPoint(-load @ normal, slopes, pads, Status.OK, 0)
+
+
+UNLOADED = 1e-12
+"""Pressure of a pad, over that of the most loaded one, that is roundoff."""
+
+
+@dataclass(frozen=True, eq=False)
+class FreePads:
+    """K(s) and dK/ds that a journal feels of pads which tilt on one film around all of them.
+
+    Parameters
+    ----------
+    bearing : TiltingPadBearing
+    motion : FilmInMotion
+        The film with pads that are held, in N/m, with the rows of one pad after the other.
+    loaded : ndarray of bool, shape (pads,)
+        Which pads have a film.
+    """
+
+    bearing: Any
+    motion: Any
+    loaded: np.ndarray
+
+    def __call__(self, s: complex) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+        """Return K(s) [N/m] and dK/ds [N s/m]; s is an exponent [1/s]."""
+        return self._reduced(s, *self.motion(s))[:2]
+
+    def stiffness(self, s: complex) -> NDArray[np.complex128]:
+        """Return K(s) alone."""
+        return self(s)[0]
+
+    def slow(self) -> tuple[Array, Array, Array]:
+        """Return K(0) [N/m], dK/ds(0) [N s/m], and d force / d speed in units of the force, shape (2,)."""
+        K, damping, by_speed = self.motion.slow()
+        K, damping, push = self._reduced(0.0, K, damping)
+        local = np.einsum("kai,ka->ki", directions(self.bearing.pivots), by_speed.reshape(-1, 2))
+        return K, damping, push @ np.einsum("kin,ki->n", coordinates_of(self.bearing), local)
+
+    def _reduced(self, s: Any, K: Any, by_s: Any) -> tuple[Any, Any, Any]:
+        """Return K(s) and dK/ds with free pads, and how forces on all coordinates push the journal."""
+        Q = directions(self.bearing.pivots)
+        parts = np.array([np.einsum("kai,kab,kbj->kij", Q, one.reshape(-1, 2, 2), Q) for one in (K, by_s)])
+        whole, slope, mass = joined(self.bearing, parts * self.loaded[:, None, None])
+        free = np.flatnonzero(np.resize(self.loaded, len(mass) - 2)) + 2
+        whole, slope = whole + s * s * mass, slope + 2.0 * s * mass
+        follow, push, kept = following(whole, free.tolist())
+        onto = np.zeros((2, len(mass)), dtype=whole.dtype)
+        onto[:, kept] = push
+        return whole[:2, kept] @ follow, onto[:, kept] @ slope[np.ix_(kept, kept)] @ follow, onto
+
+
+def coordinates_of(bearing: Any) -> Array:
+    """Return the way of a journal in the frame of each pivot by all coordinates, shape (pads, 2, n).
+
+    The coordinates are those of `PadMatrices`.
+    """
+    N = len(bearing.pivots)
+    tilts = np.zeros((N, 2, N))
+    tilts[range(N), 1, range(N)] = 1.0
+    ways = [directions(bearing.pivots).transpose(0, 2, 1), tilts]
+    return np.concatenate(ways if bearing.pivot_stiffness is None else [*ways, tilts[:, ::-1]], axis=2)
+
+
+def joined(bearing: Any, parts: Any) -> tuple[Any, Any, Array]:
+    """Return stiffness, its slope and the mass of journal and pads together, shape (n, n) each.
+
+    Parameters
+    ----------
+    bearing : TiltingPadBearing
+    parts : ndarray, shape (2, pads, 2, 2) [N/m], [N s/m]
+        Stiffness and slope of each film in the frame of its pivot.
+    """
+    B, N = coordinates_of(bearing), len(bearing.pivots)
+    K, slope = np.einsum("kin,mkij,kjl->mnl", B, parts, B)
+    mass, springs = np.zeros((2, len(K)))
+    mass[2 : 2 + N], mass[2 + N :] = bearing.reduced_inertia, bearing.pad_mass or 0.0
+    springs[2 + N :] = bearing.pivot_stiffness or 0.0
+    return K + np.diag(springs), slope, np.diag(mass)
 
 
 class TiltedFilm(NamedTuple):
@@ -633,12 +723,15 @@ class TiltedFilm(NamedTuple):
     force : ndarray, shape (pads, 2) [1/s]
     slopes : (ndarray, ndarray), shape (pads, 2, 2)
         Slopes by the place of the journal, and by the source.
+    by_speed : ndarray, shape (pads, 2) [1]
+        Slopes by the speed.
     loaded : ndarray of bool, shape (pads,)
     """
 
     places: Array
     force: Array
     slopes: tuple[Array, Array]
+    by_speed: Array
     loaded: np.ndarray
 
 

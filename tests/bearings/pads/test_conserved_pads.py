@@ -253,10 +253,11 @@ def test_the_temperature_over_pads_about_one_center_is_that_of_a_journal_bearing
     assert state.heat.made == pytest.approx(losses.power_loss, rel=1e-12)
 
 
-def test_pads_that_tilt_are_refused():
+def test_pads_that_tilt_are_refused_where_they_have_no_model():
     tilting = rf.TiltingPadBearing(**SIZE, pad_clearance=1e-4, pivots=(1.0, 3.0, 5.0), extent=1.2)
-    with pytest.raises(InputError, match="pads that do not tilt for JFOFilm, got TiltingPadBearing"):
-        JFOFilm(bearing=tilting)
+    for kind in (MomentCarryingJFOFilm, rf.HeatedJFOFilm):
+        with pytest.raises(InputError, match="pads that do not tilt, got that of TiltingPadBearing"):
+            kind(film=JFOFilm(bearing=tilting))
 
 
 def test_an_equilibrium_with_heat_balances():
