@@ -12,7 +12,7 @@ SPEED = 400.0
 
 
 def model() -> Parallel:
-    """Return the damper: diameter 100 mm, length 25 mm, radial clearance .1 mm, porous cage of 2.5 mm."""
+    """Return the damper: diameter 100 mm, length 25 mm, radial clearance 0.1 mm, porous cage of 2.5 mm."""
     cage = PorousCage(thickness=2.5e-3, permeability=4e-13, grading=0.1)
     film = PorousDamper(
         radius=0.05, length=0.025, clearance=1e-4, viscosity=4.096e-4, cage=cage, film=MapSqueeze()
