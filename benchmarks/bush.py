@@ -122,6 +122,8 @@ def draw(path: str, times: np.ndarray, found: dict[str, np.ndarray]) -> None:
     figure = first.get_figure()
     first.remove()
     panels = figure.subplots(2, 2)
+    for panel in panels.flat:
+        panel.set_prop_cycle(color=["C0", "C1", "C2", "C3"], linestyle=["-", "--", "-.", ":"])
     bush = replace(BUSH, shaft_heat=ApproximateShaft())
     speeds = {}
     for ratio in (3e-3, 7e-3, 1e-2):
@@ -138,9 +140,11 @@ def draw(path: str, times: np.ndarray, found: dict[str, np.ndarray]) -> None:
     cooling = np.linspace(0.02, 0.3, 30)
     for mu in (0.1, 0.25, 0.5, 1.0):
         error = [100.0 * (approximate_flux(lam, mu) / exact_flux(lam, mu) - 1.0) for lam in cooling]
-        panels[1, 0].plot(cooling, error, label=f"R_1/l = {mu:g}")
+        panels[1, 0].plot(cooling, error, label=f"shaft radius / half length = {mu:g}")
     panels[1, 0].set(
-        title="Closed form of the shaft heat (2.13)", xlabel="Biot number of the shaft", ylabel="error [%]"
+        title="Error of the closed form of the shaft heat (2.13)",
+        xlabel="Biot number of the shaft [1]",
+        ylabel="error [%]",
     )
     for name in ("exact", "BushWear", "BushReaction, 33 nodes", "as published, 2000 steps"):
         panels[1, 1].plot(times, found[name], label=name)

@@ -15,7 +15,7 @@ import sys
 import tempfile
 from dataclasses import replace
 from pathlib import Path
-from time import perf_counter
+from time import process_time
 
 import fmpy
 import numpy as np
@@ -52,9 +52,9 @@ def timed(call, repeats: int = 5) -> float:
     """Return the shortest time [s] of one call."""
     times = []
     for _ in range(repeats):
-        begin = perf_counter()
+        begin = process_time()
         call()
-        times.append(perf_counter() - begin)
+        times.append(process_time() - begin)
     return min(times)
 
 
@@ -155,8 +155,8 @@ def draw(found: dict[str, tuple[float, float, float]], path: Path) -> None:
     rungs = {name: values for name, values in found.items() if values[2] > 0.0}
     for name, (cost, median, high) in rungs.items():
         left.errorbar(1e6 * cost, median, yerr=[[0.0], [high - median]], fmt="o", capsize=5, label=name)
-    left.set(xscale="log", yscale="log", xlabel="time of one force in a batch, us")
-    left.set(ylabel="force error (dot: median, bar: 99 %)", title="L/D = 0.25, Phi = 0.001")
+    left.set(xscale="log", yscale="log", xlabel="CPU time of one force in a batch [us]")
+    left.set(ylabel="force error [1], dot: median, bar: 99 %", title="L/D = 0.25, Phi = 0.001")
     left.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.02, 1.0))
     left.xaxis.set_minor_formatter(NullFormatter())
     gradings = np.linspace(0.0, 4.0, 81)
@@ -167,11 +167,14 @@ def draw(found: dict[str, tuple[float, float, float]], path: Path) -> None:
         "Darcy, vented": (full, {"vented": True}),
         "published (signs corrected)": (replace(full, film=PublishedSqueeze()), {}),
     }
+    right.set_prop_cycle(color=["C0", "C1", "C2", "C3"], linestyle=["-", "--", "-.", ":"])
     for label, (film, change) in variants.items():
         cages = [replace(film.cage, grading=value, **change) for value in gradings]
         right.plot(gradings, [centered_damping(replace(film, cage=cage)) for cage in cages], label=label)
     right.set(
-        xlabel="grading", ylabel="damping / that of a solid cage", title="small motion, Phi = 0.02, H/L = 0.1"
+        xlabel="grading [1]",
+        ylabel="damping / that of a solid cage [1]",
+        title="small motion, Phi = 0.02, H/L = 0.1",
     )
     right.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.02, 1.0))
     figure.savefig(path, dpi=110)
