@@ -140,5 +140,5 @@ def test_a_sweep_has_a_largest_number_of_points():
 
 
 def test_an_entry_of_a_list_has_one_name():
-    with pytest.raises(ValueError, match="must lead through tables"):
+    with pytest.raises(ValueError, match="must be the dotted name of a key in a table"):
         varied({"disks": [{"width": 1.0}]}, {"disks.00.width": 2.0})

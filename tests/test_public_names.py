@@ -23,7 +23,9 @@ def test_the_top_level_has_what_scripts_need_and_no_more():
 
 
 def test_unknown_name_is_an_attribute_error():
-    with pytest.raises(AttributeError, match=r"has no attribute 'JournalBaering'$"):
+    with pytest.raises(
+        AttributeError, match=r"no attribute 'JournalBaering'; did you mean 'JournalBearing'\?$"
+    ):
         _ = rotorfilm.JournalBaering
 
 

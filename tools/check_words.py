@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-CLEAN = ["CONTRIBUTING.md", "README.md", "docs", "rotorfilm"]
+CLEAN = ["CONTRIBUTING.md", "README.md", "docs", "fmus", "rotorfilm"]
 MADE = {"glossary.md", "modules.md", "_build", "gallery"}
 """Files and folders without a finding, which `.ci/run` keeps so; then what the site makes."""
 MOST_WORDS, LONGEST_PAGE = 40, 3000

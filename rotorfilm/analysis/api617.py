@@ -346,8 +346,8 @@ def _middle_node(rotor: ShaftRotor, stations: Sequence[Station]) -> int:
     off = abs(places[node] - middle)
     if off > OFF_CENTER * (max(held) - min(held)):
         warn_user(
-            f"cross-coupling should act at mid-span, {middle:.4g} m, where no node is: node {node} is "
-            f"{off:.3g} m off"
+            f"the cross-coupling should act at mid-span, {middle:.4g} m, where the shaft has no node: it "
+            f"acts at node {node}, {off:.3g} m away"
         )
     return node
 

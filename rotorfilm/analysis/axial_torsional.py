@@ -120,7 +120,7 @@ def axial_modes(
     bearings : sequence of AxialSpring
         None for a free shaft.
     count : int
-        Most modes.
+        Largest number of modes.
 
     Raises
     ------
@@ -149,7 +149,7 @@ def torsional_modes(
     springs : sequence of TorsionalSpring
         None for a free shaft.
     count : int
-        Most modes.
+        Largest number of modes.
 
     Raises
     ------
@@ -198,14 +198,14 @@ def collar_response(
 ) -> control.FrequencyResponseData:
     """Return the synchronous response of a rotor to a thrust collar that is out of square.
 
-    Unbalances are left out: the sum with `unbalance_response` is the whole response.
+    Unbalances are not included: the whole response is the sum with that of `unbalance_response`.
 
     Parameters
     ----------
     collar : SkewedCollar
         With its rotor.
     bearings : mapping of str to Reaction
-        By the name of the station; each is linearized at the equilibrium of every speed.
+        Bearings by the name of the station; each is linearized at the equilibrium of every speed.
     speeds : array_like, shape (n,) [rad/s]
         Angular speeds, positive and rising.
 
@@ -340,8 +340,9 @@ def axial_statics(
     left, size = abs(float(thrust.sum() - load.sum())), float(np.abs(load).sum())
     if not left <= MOST_LEFT * size:
         raise EquilibriumError(
-            "bearings must be stiff enough beside the shaft to hold it along its axis, got stiffnesses of "
-            f"{[b.stiffness for b in bearings]} N/m, which leave {left:.3g} N of {size:.3g} N to roundoff"
+            "bearings must be stiff enough to hold the shaft along its axis, got stiffnesses of "
+            f"{[b.stiffness for b in bearings]} N/m, at which round-off leaves {left:.3g} N of {size:.3g} N "
+            "unbalanced"
         )
     for bearing, force in zip(bearings, thrust, strict=True):
         held[bearing.node] += force
@@ -370,7 +371,10 @@ def stress_stiffened(rotor: ShaftRotor, at: AxialStatics) -> ShaftRotor:
     """
     tension = require_finite("tension", at.tension)
     if len(tension) != len(rotor.elements):
-        raise InputError(f"at must be of {len(rotor.elements)} elements, got {len(tension)}")
+        raise InputError(
+            f"at must have a tension for each of the {len(rotor.elements)} elements, got {len(tension)} "
+            "tensions"
+        )
     pairs = zip(rotor.elements, tension.tolist(), strict=True)
     return replace(rotor, elements=tuple(_stretched(*pair) for pair in pairs))
 

@@ -598,8 +598,8 @@ def bistable_map(damper: port.Reaction, squeeze_numbers: ArrayLike, spring_ratio
     springs = np.atleast_1d(require_finite("spring_ratios", spring_ratios))
     if np.any(strengths <= 0.0) or np.any(springs < 0.0):
         raise InputError(
-            "squeeze_numbers must be positive and spring_ratios not negative, "
-            f"got {squeeze_numbers!r} and {spring_ratios!r}"
+            "squeeze_numbers must be positive and spring_ratios must not be negative, got "
+            f"{squeeze_numbers!r} and {spring_ratios!r}"
         )
     response = _Response(damper)
     folds = np.array([[response.folds(b, s) for s in springs] for b in strengths])
@@ -763,7 +763,7 @@ def small_motion_transmissibility(
     Raises
     ------
     UndefinedDerivativeError
-        For a cavitated film, which has no damping matrix at rest; `orbit_coefficients` are what it offers.
+        For a cavitated film, which has no damping matrix at rest; use `orbit_coefficients` instead.
     InputError
         If the film couples x and y at the center.
     """

@@ -107,7 +107,7 @@ def clearance_check(
     maximum_speed: float,
     probes: Sequence[str] | None = None,
 ) -> ClearanceCheck:
-    """Return whether a rotor that vibrates as much as it may stays within its running clearances.
+    """Return whether a rotor at its vibration limit stays within its running clearances.
 
     Parameters
     ----------
@@ -130,8 +130,8 @@ def clearance_check(
     -----
     API 617, 8th ed. (2014), part 1, 4.8.2.10 to 4.8.2.11, in the 9th ed. (2022) 6.8.2.10. The response is
     scaled until the largest vibration at the probes over the operating range is the limit A_vl, by a factor
-    of 6 at most. It then takes 75 % of each diametral running clearance at most. ROSS 3.1 has A_vl without
-    the root and its upper end, and compares peak-to-peak amplitudes with radial clearances.
+    of 6 at most. It must then take at most 75 % of each diametral running clearance. ROSS 3.1 has A_vl
+    without the root and its upper end, and compares peak-to-peak amplitudes with radial clearances.
     """
     speeds = _speeds(response)
     require_positive("minimum_speed", minimum_speed)

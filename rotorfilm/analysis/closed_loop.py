@@ -245,13 +245,13 @@ def receptance(
     ----------
     rotor : ShaftRotor
     bearings : mapping of str to Reaction
-        By the name of the station; each is linearized at the equilibrium of the speed.
+        Bearings by the name of the station; each is linearized at the equilibrium of the speed.
     speed : float [rad/s]
-        Of the rotor, whatever its own is.
+        Speed of the rotor, which replaces its own.
     frequencies : array_like, shape (n,) [rad/s]
-        Of the forces, positive and rising.
+        Frequencies of the forces, positive and rising.
     nodes : sequence of int
-        Where the forces act and the displacements are.
+        Nodes of the forces and of the displacements.
 
     Returns
     -------
@@ -292,18 +292,18 @@ def harmonic_response(
     ----------
     rotor : ShaftRotor
     bearings : mapping of str to Reaction
-        By the name of the station; each is linearized at the equilibrium of the speed.
+        Bearings by the name of the station; each is linearized at the equilibrium of the speed.
     forces : mapping of int to array_like of complex, shape (2,) or (2, n) [N]
         Phasors of the forces along x and y at exp(i frequency t), by node.
     frequencies : array_like, shape (n,) [rad/s]
-        Of the forces, positive and rising.
+        Frequencies of the forces, positive and rising.
     speed : float [rad/s], optional
-        Of the rotor; by default that of each frequency (synchronous).
+        Speed of the rotor; by default equal to each frequency (synchronous).
 
     Returns
     -------
     control.FrequencyResponseData
-        Input `force` [1]: the forces, 1 as they are. Outputs as in `unbalance_response`.
+        Input `force` [1]: a factor of the given forces. Outputs as in `unbalance_response`.
 
     Raises
     ------
@@ -463,7 +463,7 @@ def unbalance_response(
     Returns
     -------
     control.FrequencyResponseData
-        Input `unbalance` [1]: the unbalance of the rotor, 1 as it is. Outputs as in `rotor_system`: phasors
+        Input `unbalance` [1]: a factor of the unbalance of the rotor. Outputs as in `rotor_system`: phasors
         at exp(i w t) [m, m/s, N]; x leads y by 90 degrees in forward whirl. Its attribute `work` counts
         equilibria searched, solutions in the shapes kept, and factorizations of all coordinates.
 
@@ -484,12 +484,13 @@ def unbalance_response(
     try:
         unstable = first_growing(rotor, bearings, np.asarray(found.frequency))
     except ConvergenceError as error:
-        warn_user(f"whether the rotor is stable at these speeds is not known: {error}")
+        warn_user(f"it is not known whether the rotor is stable at these speeds: {error}")
         return found
     if unstable is not None:
         warn_user(
             f"speeds should be below the threshold of stability, got {unstable[0]:.6g} rad/s and more, where "
-            f"a motion of {abs(unstable[1].imag):.4g} rad/s grows: no rotor stays in the response there"
+            f"a motion of {abs(unstable[1].imag):.4g} rad/s grows: a real rotor leaves the computed response "
+            "there"
         )
     return found
 
@@ -549,7 +550,7 @@ def rotor_transmissibility(
     control.FrequencyResponseData
         Inputs: `left_force_x` and so on, forces on the journals only. Outputs: `left_housing_force_x` and so
         on for each bearing, and for each support `left_ground_force_x`, its force on the ground [1].
-        With the counters `work` of `unbalance_response`.
+        It has the counters `work` of `unbalance_response`.
 
     Raises
     ------
@@ -668,7 +669,9 @@ def rotor_states(
     """
     structure = rotor.structure
     if structure.hysteresis is not None:
-        raise InputError("loss_factor must be 0 for a state space, which hysteresis has not; see rotor_modes")
+        raise InputError(
+            "loss_factor must be 0 for a state space, which cannot represent hysteresis: `rotor_modes` can"
+        )
     given = frequency_dependent_films(at)
     films = {name: film_states(film) for name, film in given.items()}
     held = {name: film.held(films[name].D) for name, film in given.items()}

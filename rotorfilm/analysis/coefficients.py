@@ -142,7 +142,8 @@ def frozen_coefficients(reaction: port.Reaction, position: ArrayLike, speed: flo
     Raises
     ------
     InputError, FilmContactError, UndefinedDerivativeError
-        As in `coefficients`; InputError too for a film that steps, whose states are its own.
+        As in `coefficients`; also InputError for a film with a time step of its own, whose states cannot be
+        held.
     """
     port.require_reaction("reaction", reaction, heavy=True, over_time=True)
     position, speed = port.require_place(reaction, position), require_number("speed", speed)

@@ -70,11 +70,11 @@ def simulate_rotor(
 
     A `SpeedProfile` may change the gyroscopic effect and the rotating damping too. A shaft of many elements
     (more than 60 coordinates) is reduced to its lowest mode shapes. Forces of the bearings, unbalance and
-    weight in such a run also act on the whole shaft, and bend the shapes that were neglected. The run counts
-    if that moves no journal further than `condensation`, estimated as twice the static response of these
-    shapes; otherwise it is repeated with shapes up to twice the frequency, and with the whole shaft in the
-    end. The estimate is made moment by moment, so it also serves for unstable motion, in which two runs part
-    however close they begin.
+    weight in such a run also act on the whole shaft, and bend the shapes that were neglected. The run is
+    accepted if that moves no journal further than `condensation`, estimated as twice the static response of
+    these shapes; otherwise it is repeated with shapes up to twice the frequency, and with the whole shaft in
+    the end. The estimate is made moment by moment, so it also serves for unstable motion, in which two runs
+    part however close they begin.
 
     Parameters
     ----------
@@ -107,11 +107,11 @@ def simulate_rotor(
     Raises
     ------
     InputError
-        If an argument is out of range, or the rotor is none that this function takes.
+        If an argument is out of range, or this function does not take the rotor.
     ContactError
-        If a journal reaches the wall; carries the trajectory until then.
+        If a journal reaches the wall; the error carries the trajectory until then.
     ConvergenceError
-        If a film force is not finite or steps become too small; carries the trajectory until then.
+        If a film force is not finite or steps become too small; the error carries the trajectory until then.
 
     Warns
     -----

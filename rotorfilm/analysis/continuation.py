@@ -589,12 +589,16 @@ def hopf_point(family: Callable[[float], MountedRotor], bounds: tuple[float, flo
     ends = growth(low), growth(high)
     if ends[0] * ends[1] > 0.0:
         raise InputError(
-            f"bounds must be stable at one end and unstable at the other, got growth rates {ends} 1/s"
+            "bounds must have a stable equilibrium at one end and an unstable one at the other, got growth "
+            f"rates {ends} 1/s"
         )
     parameter = brentq(growth, low, high, xtol=1e-13 * max(abs(low), abs(high)), rtol=1e-14)
     modal, rest, value = _onset(family, parameter)
     if abs(value.imag) <= 1e-6 * max(abs(modal.parts.speed), abs(value)):
-        raise ConvergenceError(f"rest must be lost to whirl, but is lost without at {parameter:.9g}")
+        raise ConvergenceError(
+            "the equilibrium must become unstable by whirl, but a motion without whirl grows from "
+            f"{parameter:.9g} on"
+        )
     step = 1e-4 * (high - low)
     crossing = (growth(parameter + step) - growth(parameter - step)) / (2.0 * step)
     shape, curvature = growth_curvature(modal, rest, value.imag)

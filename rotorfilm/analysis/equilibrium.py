@@ -268,8 +268,8 @@ def _without_circle(reaction: Any, load: Array, speed: float) -> Equilibrium:
     clearance = port.clearance_of(reaction)
     if clearance < math.inf and not port.relative_film(reaction, place) > 0.0:
         raise EquilibriumError(
-            f"load must be within what the reaction carries at speed {speed!r} rad/s inside its clearance "
-            f"{clearance:.6g} m, got load {load.tolist()}, which takes it to {place.tolist()}"
+            f"load must be one that the reaction carries at speed {speed!r} rad/s inside its clearance "
+            f"{clearance:.6g} m, got load {load.tolist()}, which would move the journal to {place.tolist()} m"
         )
     slopes = port.static_slopes(reaction, place, still, speed)[:, :n] * np.outer(way, way)
     if np.linalg.eigvals(slopes).real.max() > _NEUTRAL_SLOPE * np.abs(slopes).max():
@@ -342,8 +342,8 @@ def _warm(bearing: Any, load: Array, speed: float) -> Equilibrium:
             if not steps:
                 raise
             raise EquilibriumError(
-                "load must be carried by a film as warm as its own heat makes it, and at "
-                f"{temperature:.4g} K none carries it: {error}"
+                f"load must be carried by a film that its own heat warms, but at {temperature:.4g} K no film "
+                f"carries it: {error}"
             ) from error
         steps += taken
         warmer = bearing.balanced_temperature(position, np.zeros(2), speed) - temperature
@@ -705,8 +705,8 @@ def _unsettled(film: FieldFilm, load: Array, speed: float, state: Any) -> Heated
     if off > COARSE:
         return None
     warn_user(
-        "film and temperature come to rest together only to the size of a cell, where oil gets to more or "
-        f"fewer of them: the position is known to {off:.2g} of the clearance, and more cells tell it better"
+        "film and temperature have a common equilibrium only within the size of a cell: the position is "
+        f"known to {off:.2g} of the clearance, and more cells make this smaller"
     )
     return found
 

@@ -59,10 +59,10 @@ def warn_of_thin_films(films: Mapping[str, Any], run: Trajectory) -> None:
         least = port.minimum_film(film, np.array(place))
         if least[at := int(np.argmin(least))] < THINNEST:
             warn_user(
-                f"the least film{of_station(station)} should be at least {THINNEST:g} m, "
-                "as thick as the finest surfaces are rough, got "
+                f"the least film{of_station(station)} should be at least {THINNEST:g} m, the roughness of "
+                "the finest surfaces, got "
                 f"{least[at]:.3g} m at t = {run.time[at]:.6g} s: "
-                "real surfaces touch there, and the force of this smooth film is no prediction"
+                "real surfaces touch there, and the force of this smooth film does not predict theirs"
             )
 
 

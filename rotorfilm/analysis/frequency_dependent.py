@@ -146,7 +146,7 @@ def require_all_growing(
         return
     count = rotor_growing(structure, at, values)
     if count != growing:
-        raise ConvergenceError(f"{growing} of {count} growing exponents were found at {speed:.6g} rad/s")
+        raise ConvergenceError(f"only {growing} of {count} growing motions were found at {speed:.6g} rad/s")
 
 
 def _frequencies(reference: np.ndarray, found: np.ndarray, speed: float) -> Array:
@@ -217,8 +217,8 @@ def counted_exponents(
         if known == growing:
             return np.array(found), growing
     raise ConvergenceError(
-        f"{len(found)} of {growing} growing exponents of a mass of {mass:.6g} kg on the film were "
-        f"found: {found}"
+        f"only {len(found)} of {growing} growing motions of a mass of {mass:.6g} kg on the film were found: "
+        f"{found}"
     )
 
 
@@ -327,7 +327,8 @@ def growing_count(ratio: Callable[[float], complex], frequencies: Array, referen
         points.append((2.0 * points[-1][0], ratio(2.0 * points[-1][0])))
     if not abs(points[-1][1] - 1.0) <= NEAR_ONE:
         raise ConvergenceError(
-            f"the stiffness must lose its effect at high frequencies for a count of roots, and D/E is "
+            "the inertia must outweigh the stiffness at high frequencies to count growing motions, but D/E "
+            "is "
             f"{points[-1][1]:.3g} at {points[-1][0]:.3g} rad/s"
         )
     turn = sum(_turn(ratio, low, high) for low, high in pairwise(points))
@@ -349,8 +350,8 @@ def _turn(
             continue
         if depth == _HALVINGS:
             raise ConvergenceError(
-                f"the phase must be smooth to count what grows, and jumps at {high[0]:.8g} rad/s: there is a "
-                "motion that neither grows nor decays"
+                f"growing motions cannot be counted: the phase jumps at {high[0]:.8g} rad/s, where a motion "
+                "neither grows nor decays"
             )
         nu = 0.5 * (low[0] + high[0])
         middle = (nu, ratio(nu))

@@ -118,7 +118,7 @@ def _rested(model: Any, at: Equilibrium) -> tuple[Any, OperatingPoint]:
     given, wanted = names(model.inputs), [*place_names(port.freedoms_of(model)), "speed"]
     if given != wanted or len(at.position) != len(port.freedoms_of(model)):
         raise InputError(
-            "at must be an OperatingPoint for a model that is no film with the inputs "
+            "at must be an OperatingPoint for a model that is not a film with the inputs "
             f"{', '.join(wanted)}, got an Equilibrium for the inputs {given}"
         )
     film = port.at_balanced_temperature(model, at.position, at.speed)
@@ -270,7 +270,9 @@ def film_states(film: FrequencyDependentCoefficients) -> Linearization:
 def _fitted(film: FrequencyDependentCoefficients, highest_frequency: float | None, tolerance: float) -> _Fit:
     """Return the fit with the fewest states whose error is small enough, and which damps fast motion."""
     if film.speed == 0.0:
-        raise InputError("at.speed must not be 0 for a film with a memory of the rotation, got 0.0")
+        raise InputError(
+            "at.speed must not be 0 for a film whose coefficients depend on the frequency, got 0.0"
+        )
     top = abs(film.speed) if highest_frequency is None else highest_frequency
     require_positive("highest_frequency", top)
     motion = film.dynamic_stiffness

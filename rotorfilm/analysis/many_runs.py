@@ -23,14 +23,15 @@ def simulate_many(
     keep: Callable[[Trajectory], Any] | None = None,
     workers: int | None = None,
 ) -> list[Any]:
-    """Return the results of many runs over time, bit by bit those of `simulate`.
+    """Return the results of many runs over time, identical to those of `simulate`.
 
     Parameters
     ----------
     runs : iterable of mapping of str to object
         Arguments of `simulate` for each run, by name.
     keep : callable, optional
-        Makes out of the trajectory of a run what is to be kept of it, as a peak. By default it is kept whole.
+        Function that returns what to keep of the trajectory of a run, for example a peak; by default the
+        whole trajectory is kept.
     workers : int, optional
         Number of threads; by default as many as the machine has cores.
 

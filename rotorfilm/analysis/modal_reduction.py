@@ -443,7 +443,9 @@ def negative_count(stiffness: Any, square: float, inertia: Any) -> int:
         kept = np.array_equal(factor.perm_r, np.arange(len(order)))
         if kept and abs(factor.L).max() <= GROWTH:
             return int(np.sum(factor.U.diagonal().real < 0.0))
-    raise ConvergenceError(f"eigenvalues below {square:.6g} must be counted, and one is too near")
+    raise ConvergenceError(
+        f"the eigenvalues below {square:.6g} could not be counted, because one lies too near to this value"
+    )
 
 
 # What analyses count of their own work.

@@ -71,8 +71,8 @@ class PeriodicOrbit(Drawable):
         State of the whole rotor at t = 0.
     multipliers : ndarray of complex, shape (n_multipliers,)
         Floquet multipliers, the largest first; for free whirl one of them is 1. Empty without `stability`.
-        A shaft of more than 24 coordinates has those of motion that its lower modes make, where all its
-        bearings damp faster motion; other rotors have one for each state.
+        A shaft of more than 24 coordinates has only those of its lower modes, if all its bearings damp faster
+        motion; other rotors have one for each state.
     residual : float [1]
         Remaining imbalance of the equations / clearance, in all coordinates of the rotor.
     truncation : float [1]
@@ -136,7 +136,10 @@ class PeriodicOrbit(Drawable):
     def stable(self) -> bool:
         """Whether small disturbances decay; raises InputError if the multipliers were not computed."""
         if not self.multipliers.size:
-            raise InputError("stability must be True for an orbit that knows whether it is stable")
+            raise InputError(
+                "stable needs an orbit with Floquet multipliers, got one without: compute it with "
+                "stability=True"
+            )
         return bool(np.all(np.abs(self.free_multipliers) < 1.0))
 
 
@@ -202,7 +205,7 @@ def _found(
     if rotor.is_driven:
         return _driven(rotor, start, periods, converged)
     if start is None:
-        raise InputError("start must be an orbit or a run that ends in whirl for a rotor without unbalance")
+        raise InputError("start must be an orbit, or a run that ends in whirl, for a rotor without unbalance")
     series, frequency = _start_series(rotor, start, None)
     balance = harmonic_balance.Balance(rotor=rotor, harmonics=HARMONICS, periods=0)
     return harmonic_balance.solve(balance, harmonic_balance.resized(series, HARMONICS), frequency, converged)
@@ -607,8 +610,9 @@ def _newton(modal: ModalRotor, start: Array) -> Array:
     left = float(np.abs(balance.values(series, 1.0)).max())
     if not (size < TOLERANCE and left <= MOST_LEFT):
         raise EquilibriumError(
-            f"rotor must have a rest near its first guess, and the search found none: the last Newton step "
-            f"was {size:.3g} of the clearance, and the rotor under the forces there is {left:.3g} of it away"
+            "rotor must have an equilibrium near its first guess, and the search found none: the last "
+            "Newton step "
+            f"was {size:.3g} of the clearance, and the forces there would move the rotor by {left:.3g} of it"
         )
     return np.asarray(series[:, 0])
 

@@ -248,8 +248,8 @@ class PortRotor:
         balanced, _ = matrix_balance(self.small.matrix, permute=False)
         if not np.linalg.cond(balanced) < LARGEST_DRIFT:
             raise ConvergenceError(
-                "rotor and bearings must be held at rest for a periodic orbit, but a motion of the shaft or "
-                "a state of a bearing drifts, as wear does, or as a shaft without a thrust bearing does"
+                "rotor and bearings must have an equilibrium for a periodic orbit, but a motion of the "
+                "shaft or a state of a bearing drifts: a bush wears, or no thrust bearing holds the shaft"
             )
 
     @cached_property

@@ -155,8 +155,8 @@ def rest(
         if _is_settled(last, temperatures):
             return _result(system, q, p, temperatures)
     raise EquilibriumError(
-        f"rotor must come to rest at the temperatures of its films, and did not in {WARMINGS} rounds: "
-        f"they changed from {last} to {temperatures} K"
+        f"rotor must have an equilibrium at the temperatures of its films, and {WARMINGS} rounds did not "
+        f"find it: the last round changed them from {last} to {temperatures} K"
     )
 
 

@@ -483,7 +483,7 @@ class Campbell(Whirls, Drawable):
     log_decrement : ndarray, shape (n_modes, n_speeds) [1]
         Negative where the whirl grows.
     error : float [1]
-        Largest of those of `RotorModes`.
+        Largest `RotorModes.error` of all speeds.
     roundoff : ndarray, shape (n_modes, n_speeds) [1/s]
         Roundoff as in `RotorModes`; nan likewise.
     highest_frequency : float [rad/s]
@@ -675,20 +675,21 @@ def critical_speeds(
 
     Notes
     -----
-    Over a step of speeds the state matrix, in the eigenvectors of its middle, is diag(s) and
-    small numbers. They bound what may become of each eigenvector (Brouwer; one only: Earle and Hamilton
-    1970), and all other eigenvalues by Gershgorin's circles. A step counts as proven if no other eigenvalue
-    can come to the line Im s = |speed|, and if the frequencies of those that can all grow more slowly than
-    the speed, or all faster. Each then crosses at most once, and Newton's method finds whether it does. Other
-    steps are halved, up to 14 times.
+    Within a step of speeds the state matrix is diag(s) plus small numbers, in the eigenvectors at the middle
+    of the step. These numbers bound how far each eigenvector can change (by Brouwer's theorem; it is unique
+    by that of Earle and Hamilton 1970). Gershgorin's circles bound all other eigenvalues. A step is proven if
+    only the bounded eigenvalues can reach the line Im s = |speed|, and if their frequencies all grow more
+    slowly than the speed, or all faster. Each of them then crosses the line at most once, and Newton's method
+    finds whether it does. Other steps are halved, up to 14 times.
 
-    The proof is for the shapes kept, whose eigenvalues have an estimated error of at most 1e-6. The critical
-    speeds found are solved in all coordinates. For films it assumes that their K and C bend within a step at
-    most twice as much as the parabola through both ends and the middle. For frequency-dependent films it
-    holds for whirls with |Re s| up to three times the speed. Where K and C jump, as where a tilting pad is
-    loaded first, the same is proven of a straight way from one side to the other, on which no whirl may have
-    the frequency of the rotation. Without damping, and with a stiffness that is symmetric and the same at all
-    speeds, the number is checked in all coordinates besides, by Sylvester's law of inertia.
+    The proof holds for the mode shapes that are kept, whose eigenvalues have an estimated error of at most
+    1e-6. The critical speeds found are solved in all coordinates. For films it assumes that their K and C
+    bend within a step at most twice as much as the parabola through both ends and the middle. For
+    frequency-dependent films it holds for whirls with |Re s| up to three times the speed. Where K and C jump,
+    for example where a tilting pad becomes loaded, the same is proven on a straight path between both sides
+    of the jump: there no whirl may have the frequency of the rotation. Without damping, and with a symmetric
+    stiffness that is the same at all speeds, the number of critical speeds is also checked in all
+    coordinates, by Sylvester's law of inertia.
     """
     grid = speeds_in_turn(speeds)
     require_flexible(rotor)

@@ -172,9 +172,9 @@ def stability_changes(
 
     Notes
     -----
-    The eigenvalues with a positive real part are counted at each speed, and where the number changes from m
-    to n, growth number m + 1 to n, by falling growth, vanishes in between: no whirl has to be followed. The
-    speeds have the error of `rotor_threshold`.
+    The eigenvalues with a positive real part are counted at each speed. If the number changes from m to n
+    between two speeds, the growth rates m + 1 to n, in falling order, are zero in between, so that no whirl
+    has to be followed. The speeds have the error of `rotor_threshold`.
     """
     with modal_reduction.counted(*modal_reduction.COUNTS) as work:
         found = list(

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..core.errors import InputError, require_count, require_finite
-from ..core.inputs import arguments
+from ..core.inputs import arguments, require_choice
 from ..core.model import Array
 from ..core.readable import Drawable, Readable
 from ..core.results import Trajectory
@@ -136,14 +136,14 @@ class RunSpectrum(Drawable):
 
 @dataclass(frozen=True, kw_only=True)
 class RunWhirl(Readable):
-    """Whirl in the second half of a run at constant speed: what does not repeat with each turn of the shaft.
+    """Whirl in the second half of a run at constant speed: the motion that does not repeat with each turn.
 
     Attributes
     ----------
     whirl_radius : float [m]
         Radius of the whirl in the last window, of equal mean square.
     growth_rate : float [1/s]
-        Growth of its logarithm; negative where it dies out, 0 where nothing moves.
+        Slope of the logarithm of the radius over time; negative if the whirl dies out, 0 without motion.
     whirl_ratio : float or None [1]
         Frequency / speed of the strongest line, negative for backward whirl; None without whirl.
     station : str
@@ -457,8 +457,7 @@ def station_of(run: Trajectory) -> str:
 
 
 def _series(run: Trajectory, name: str) -> Array:
-    if name not in run.signals:
-        raise InputError(f"signal must be one of {', '.join(run.signals)}, got {name!r}")
+    require_choice("signal", name, run.signals)
     return run.signals[name]
 
 

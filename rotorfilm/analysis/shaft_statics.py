@@ -77,8 +77,8 @@ def shaft_statics(
     Raises
     ------
     InputError
-        If an argument breaks its rule, rigid bearings do not hold the rotor, or none of the bearings is meant
-        to carry a load, as seals are not.
+        If an argument breaks its rule, rigid bearings do not hold the rotor, or all given reactions are
+        seals, which carry no load.
     EquilibriumError
         If it does not rest in its bearings.
 

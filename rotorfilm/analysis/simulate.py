@@ -104,9 +104,10 @@ def simulate(
     InputError
         If an argument is out of range, or the signals do not fit.
     ContactError
-        If the journal reaches the wall; carries the trajectory until then.
+        If the journal reaches the wall; the error carries the trajectory until then.
     ConvergenceError
-        If the integrator gives up or the film force is not finite; carries the trajectory until then.
+        If the integrator gives up or the film force is not finite; the error carries the trajectory
+        until then.
 
     Warns
     -----

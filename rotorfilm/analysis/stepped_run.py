@@ -132,7 +132,7 @@ def part_of_turn(rotor: Dynamic, duration: float) -> float:
     highest = highest_speed(rotor, duration)
     if highest == 0.0:
         raise InputError(
-            "max_step must be given, as the length of all steps, for a shaft that stands at first"
+            "max_step must be given for a shaft that does not rotate at first: it is the length of all steps"
         )
     return 2.0 * math.pi / STEPS_A_TURN / highest
 
@@ -308,7 +308,8 @@ def stations_of(rotor: Dynamic, films: Mapping[str, Any]) -> tuple[FilmStation, 
         argument = f"reaction[{name!r}]" if name else "reaction"
         if not takes_steps(film):
             raise InputError(
-                f"{argument} must be a film that steps, as a JFOFilm, since others do, got {brief(film)}"
+                f"{argument} must be a film with a time step of its own, such as a JFOFilm, because another "
+                f"film of this rotor is one, got {brief(film)}"
             )
         motion, force = station_names(name)
         places = indices("rotor must have the outputs", outputs, [*motion, JOURNAL_INPUTS[-1]])

@@ -118,13 +118,13 @@ def amplification_factor(speeds: ArrayLike, phasors: ArrayLike, peak: float) -> 
     phasors : array_like of complex, shape (n,)
         The response.
     peak : float [rad/s]
-        Its speed, within the range.
+        Speed of the peak, within the range.
 
     Notes
     -----
-    API 684 and 617, AF = N_c / (N_2 - N_1) with the speeds at which the amplitude is 0.707 of the peak. Of a
-    peak beside another one, or at the end of the range, one of them may be missing; AF is then
-    N_c / (2 |N - N_c|) with the other; with none it is nan.
+    API 684 and 617, AF = N_c / (N_2 - N_1) with the speeds at which the amplitude is 0.707 of the peak. One
+    of these speeds may be missing, for a peak near another one or at the end of the range; AF is then N_c /
+    (2 |N - N_c|) with the other. If both are missing, AF is nan.
     """
     grid = require_finite("speeds", speeds)
     size = _amplitude(grid, np.asarray(phasors))
@@ -320,8 +320,8 @@ def bow_response(
     Returns
     -------
     control.FrequencyResponseData
-        Input `bow` [1]: the bow, 1 as it is. Outputs as in `unbalance_response`. Displacements include the
-        bow: on rigid bearings a slow shaft moves by its bow.
+        Input `bow` [1]: a factor of the given bow. Outputs as in `unbalance_response`. Displacements include
+        the bow: on rigid bearings a slow shaft moves by its bow.
 
     Raises
     ------
@@ -333,7 +333,8 @@ def bow_response(
     Notes
     -----
     The shaft resists what deflects it from its bow, K (q - q_bow), whatever the speed; of a Jeffcott rotor
-    that is Nicholas, Gunter & Allaire (1976), J. Eng. Power 98, 171-181. Internal damping does not feel it.
+    that is Nicholas, Gunter & Allaire (1976), J. Eng. Power 98, 171-181. Internal damping does not depend on
+    the bow.
     """
     shape = np.asarray(bow, dtype=complex)
     count = len(rotor.elements) + 1

@@ -382,7 +382,7 @@ class CriticalMass(Readable):
 
 @dataclass(frozen=True, kw_only=True)
 class VerifiedCriticalMass(CriticalMass):
-    """The mass at the border of stability on a frequency-dependent film, with what grows on both sides of it.
+    """The mass at the border of stability on a frequency-dependent film, with the growing motions beside it.
 
     Attributes
     ----------
@@ -423,9 +423,7 @@ def critical_mass(coefficients: Coefficients) -> CriticalMass:
         )
     told = getattr(coefficients, "dynamic_stiffness", None)
     if isinstance(coefficients, InertialCoefficients) or isinstance(told, InertialStiffness):
-        raise InputError(
-            f"coefficients must have no added mass, got {coefficients!r}: density 0 leaves it out"
-        )
+        raise InputError(f"coefficients must have no added mass, got {coefficients!r}: set the density to 0")
     if isinstance(coefficients, FrequencyDependentCoefficients) and np.any(coefficients.damping):
         return _counted(coefficients)
     reason = _why_no_border(coefficients)
@@ -458,8 +456,8 @@ def _counted(film: FrequencyDependentCoefficients) -> VerifiedCriticalMass:
     for (border, frequency), (below, above) in zip(borders, pairwise(counts), strict=True):
         if abs(above - below) != 2:
             raise ConvergenceError(
-                f"one whirl must begin or cease to grow at a mass of {border:.6g} kg, and {below} "
-                f"exponents grow below it, {above} above"
+                f"one whirl must begin or cease to grow at a mass of {border:.6g} kg, but {below} motions "
+                f"grow below it and {above} above it"
             )
         if below == 0:
             return VerifiedCriticalMass(
@@ -558,7 +556,7 @@ most looks. K and C jump a little with the cells of the cavity: a border between
 
 @dataclass(frozen=True, kw_only=True)
 class VerifiedThreshold(WhirlThreshold):
-    """The onset of whirl of a rigid rotor on a frequency-dependent film, with what grows on both sides of it.
+    """The onset of whirl of a rigid rotor on a frequency-dependent film, with the growing motions beside it.
 
     Attributes
     ----------
@@ -590,8 +588,8 @@ def counted_threshold(reaction: Any, found: WhirlThreshold) -> VerifiedThreshold
     below, above = (rigid_growing(_film(reaction, rest), mass) for rest in rests)
     if below or not above:
         raise ConvergenceError(
-            f"a whirl must begin to grow at {speed:.6g} rad/s, and {below} exponents grow below it, "
-            f"{above} above"
+            f"one whirl must begin to grow at {speed:.6g} rad/s, but {below} motions grow below it and "
+            f"{above} above it"
         )
     return VerifiedThreshold(**vars(found), growing_below=below, growing_above=above)
 
@@ -626,7 +624,7 @@ def threshold_near(reaction: Any, load: ArrayLike, mass: float, start: float) ->
             at, ratio = equilibrium(whole, load, onset), abs(exponent(onset).imag) / onset
             return counted_threshold(reaction, _threshold(whole, at, mass, ratio, mass))
     raise AbsentError(
-        f"no threshold: none from {start:.6g} to {speed:.6g} rad/s on a film that conserves its oil"
+        f"the mass-conserving film has no whirl threshold from {start:.6g} to {speed:.6g} rad/s"
     )
 
 

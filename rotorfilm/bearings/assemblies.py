@@ -65,7 +65,8 @@ def require_part(name: str, part: Any) -> None:
     require_terminals(name, part)
     if is_warming(part):
         raise InputError(
-            f"{name} must have a temperature, or have it as a state as by its in_time(), got {part!r}"
+            f"{name} must have a given temperature, or the temperature as a state as that of in_time(), got "
+            f"{part!r}"
         )
 
 
@@ -255,7 +256,7 @@ class Parallel(SharedReaction):
     Raises
     ------
     InputError
-        If there are fewer, or one is no Reaction or leaves its temperature to the balance of its heat.
+        If there are fewer, if one is no Reaction, or if its heat balance determines its temperature.
 
     Examples
     --------
@@ -323,7 +324,7 @@ class Parallel(SharedReaction):
         """Do nothing: each reaction raises its own error where the journal touches."""
 
     def compiled(self) -> FilmCall | None:
-        """Return the sum of the forces in the C library; None where one has none, or for a subclass.
+        """Return the sum of the forces in the C library; None for a subclass, or if a force is not in C.
 
         It includes the added mass, if a reaction has one.
         """
@@ -415,7 +416,7 @@ class Parallel(SharedReaction):
         return total
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return the forces on the shaft, and with inertia the mass [kg], at u = (places, rates, speed)."""
+        """Return the forces on the shaft, and any added mass [kg], at u = (places, rates, speed)."""
         state, values, n = self._checked(x), input_vector(u, self.freedoms), len(self.freedoms)
         total = self._springs @ values
         for one, rows, columns, inner in self._varying:
@@ -479,7 +480,7 @@ class Parallel(SharedReaction):
     def rest_linearization(self, position: ArrayLike, speed: float) -> Linearization:
         """Return the derivatives with all states at rest; see `core.port`.
 
-        States that drift, as wear, are held beside those that rest.
+        States that drift, such as wear, are held; all others are in equilibrium.
         """
         q, held = require_finite("position", position), self.states_rest
         follow = [states_rest(one) if held else bool(one.states) for one in self.reactions]

@@ -293,7 +293,7 @@ class AnnularSeal(InertialModel):
         if share > TRANSIT:
             warn_user(
                 f"frequency * transit time of the seal must not exceed {TRANSIT:g} of 1 + inlet_loss + drag, "
-                f"got {share:.3g}: its coefficients follow motion that is slow beside the flow"
+                f"got {share:.3g}: the coefficients hold for motion that is slow compared with the flow"
             )
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:

@@ -110,8 +110,8 @@ class Series:
     Raises
     ------
     InputError
-        If a reaction is none or leaves its temperature to the balance of its heat, the inner one adds a mass,
-        or they react to no motion in common.
+        If an argument is no Reaction, its heat balance determines its temperature, the inner reaction adds a
+        mass, or both have no freedom in common.
 
     Examples
     --------

@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.errors import InputError
 from ..core.files import write_atomically
+from ..core.inputs import require_choice
 
 BACKENDS = {"matplotlib": "on_matplotlib", "plotly": "on_plotly"}
 """Modules that draw, by the name of the backend."""
@@ -25,8 +25,7 @@ def use(backend: str) -> None:
 
 
 def _known(backend: str) -> str:
-    if backend not in BACKENDS:
-        raise InputError(f"backend must be one of {', '.join(BACKENDS)}, got {backend!r}")
+    require_choice("backend", backend, BACKENDS)
     return backend
 
 

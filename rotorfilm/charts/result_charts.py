@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from ..bearings.contact import ContactRun
 from ..core.answers import QuestionAnswer
 from ..core.errors import InputError, require_finite
+from ..core.inputs import require_choice
 from ..core.readable import column_scale, label_of
 from . import film_charts, rotor_charts, run_charts
 from .picture import BarsMark, ColorScale, CurveMark, FieldMark, LevelMark, Mark, Picture, PicturePanel
@@ -43,10 +44,8 @@ def picture_of(result: Any, kind: str = "") -> Picture:
             "charts.plot_unbalance_response draw other objects"
         )
     kinds = PICTURES[name]
-    if kind and kind not in kinds:
-        raise InputError(
-            f"kind must be one of {', '.join(kinds)} for a {type(result).__name__}, got {kind!r}"
-        )
+    if kind:
+        require_choice(f"kind of picture of a {name}", kind, kinds)
     return kinds[kind or next(iter(kinds))](result)
 
 

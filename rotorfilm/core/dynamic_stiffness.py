@@ -97,8 +97,9 @@ def rest_state(reaction: Any, position: ArrayLike, speed: float) -> Array:
 def no_rest(reaction: Any, position: ArrayLike, speed: float) -> EquilibriumError:
     """Return what to raise where no states were found that rest with the shaft at a place."""
     return EquilibriumError(
-        f"reaction must have states that rest with the shaft at {np.asarray(position).tolist()} and "
-        f"{speed!r} rad/s, got {brief(reaction)} with {names(reaction.states)}, for which none was found"
+        f"reaction must have an equilibrium of its states {names(reaction.states)} with the shaft at "
+        f"{np.asarray(position).tolist()} and "
+        f"{speed!r} rad/s, got {brief(reaction)}, for which none was found"
     )
 
 
@@ -269,7 +270,8 @@ class StatesStiffness:
             moved = np.linalg.solve(follow, drive)
         except np.linalg.LinAlgError:
             raise InputError(
-                f"s must not be an exponent of the states alone, as 0 is where one integrates, got {s!r}"
+                "s must not be an eigenvalue of the states of the bearing alone, such as 0 for a state that "
+                f"integrates, got {s!r}"
             ) from None
         slope = np.linalg.solve(follow, B[:, by_rate] - moved)
         K, damping = D[:, by_place] + s * D[:, by_rate] + C @ moved, D[:, by_rate] + C @ slope

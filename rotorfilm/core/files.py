@@ -163,14 +163,17 @@ def read_sealed(path: str | os.PathLike[str], settings: str, rule: str) -> bytes
     content, head = sealed[: -_SEAL.size], sealed[-_SEAL.size :]
     name = repr(str(path))
     if len(head) < _SEAL.size or not head.startswith(MAGIC):
-        raise InputError(f"{name} must end with the seal of rotorfilm: it is cut off, or another file")
+        raise InputError(
+            f"{name} must end with the seal of rotorfilm: the file is incomplete, or rotorfilm did not write "
+            "it"
+        )
     if _digest(sealed) != data[-_CHECKSUM:]:
-        raise InputError(f"{name} must hold what was written: its checksum does not fit, it is damaged")
+        raise InputError(f"{name} must have the checksum that was written with it: the file is damaged")
     _, version, length, owner = _SEAL.unpack(head)
     if version != VERSION:
         raise InputError(f"{name} must have a seal of version {VERSION}, got {version}")
     if length != len(content):
-        raise InputError(f"{name} must hold {length} bytes before its seal, got {len(content)}")
+        raise InputError(f"{name} must have {length} bytes before its seal, got {len(content)}")
     if owner != _digest(settings.encode()):
         raise InputError(f"{rule}, got {name}")
     return content

@@ -151,7 +151,8 @@ def _require_arguments(home: Any, given: Mapping[str, Any], known: tuple[str, ..
     """Raise UnknownArgumentError where an argument is none of what is called."""
     for name in given:
         if name not in known:
-            raise UnknownArgumentError(f"{name} must be an argument of {home.__name__}{nearest(name, known)}")
+            hint = nearest(name, known, LIKELY) or f"; known here: {', '.join(known)}"
+            raise UnknownArgumentError(f"{name} is no known argument of {home.__name__}{hint}")
 
 
 def _halved(home: Any, diameter: str, radius: str, given: Mapping[str, Any]) -> dict[str, Any]:
@@ -304,8 +305,8 @@ def warn_of_odd_size(name: str, value: Any, unit: str) -> None:
 # What a misspelled name, or a symbol in place of a name, may have been meant to be.
 
 
-SIMILAR = 0.4
-"""Similarity, of 1, from which a known name is worth a hint."""
+SIMILAR, LIKELY = 0.4, 0.6
+"""Similarity, of 1, from which a known name is worth a hint beside all names, and in place of them."""
 
 SAME_WORD = 0.7
 """Similarity from which an unknown key is the known one with a typo."""
@@ -336,7 +337,15 @@ RADIAL = ("clearance", "pad_clearance", "assembled_clearance")
 """Arguments that are radial, which a diametral clearance is twice."""
 
 
-def nearest(name: object, known: Iterable[str]) -> str:
+def require_choice(
+    name: str, value: Any, known: Iterable[str], error: type[RotorfilmError] = InputError
+) -> None:
+    """Raise an error that lists the known values unless `value` is one of them."""
+    if value not in (values := [*known]):
+        raise error(f"{name} must be one of {', '.join(values)}, got {brief(value)}{nearest(value, values)}")
+
+
+def nearest(name: object, known: Iterable[str], similarity: float = SIMILAR) -> str:
     """Return a hint with the known name nearest to `name`, or an empty string."""
     if not isinstance(name, str):
         return ""
@@ -346,7 +355,7 @@ def nearest(name: object, known: Iterable[str]) -> str:
     symbol = SYMBOLS.get(name.lower())
     if symbol in by_small_letters:
         return f"; did you mean {symbol!r}?"
-    close = difflib.get_close_matches(name.lower(), by_small_letters, n=1, cutoff=SIMILAR)
+    close = difflib.get_close_matches(name.lower(), by_small_letters, n=1, cutoff=similarity)
     if not close:
         return ""
     meant = by_small_letters[close[0]]

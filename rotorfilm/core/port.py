@@ -51,7 +51,7 @@ class Reaction(Model, Protocol):
     - `states_rest`, whether its states have an equilibrium when the shaft rests, if having a `force` does not
       show this;
     - `dynamic_stiffness(position, speed)`, K(s) of small motion, if it does not follow from its own states;
-    - `require_range(frequency)`, which warns or raises where the model ends for motion that fast;
+    - `require_range(frequency)`, which warns or raises if the model is not valid for such fast motion;
     - `has_inertia`, `mass(...)`, `mass_slopes(...)`: F = force - mass acceleration;
     - `force_along(position, velocity, acceleration, speed)`, this force F, if it does not follow from the
       others;
@@ -491,10 +491,10 @@ def require_massless(name: str, reaction: Any) -> None:
     """Raise InputError for a reaction with an added mass."""
     if inertial(reaction) is not None:
         raise InputError(
-            f"{name} must not add its oil's mass to the rotor here, got {reaction!r}: simulate, "
-            "synchronous_orbits, orbit_system, closed_loop, transmissibility, mount and the analyses of "
-            "flexible rotors take that mass; "
-            "density 0 of a damper, added_mass=False of a seal leave it out"
+            f"{name} must not add the mass of its oil to the rotor in this analysis, got {reaction!r}. "
+            "That mass is included by simulate, synchronous_orbits, orbit_system, closed_loop, "
+            "transmissibility, mount and the analyses of "
+            "flexible rotors. Set density=0 of a damper or added_mass=False of a seal to neglect it"
         )
 
 

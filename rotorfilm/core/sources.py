@@ -118,10 +118,17 @@ class LazyPackage(ModuleType):
             return import_module(f"{PACKAGE}.{name}")
         else:
             elsewhere = published().get(name, "") if self.__name__ == PACKAGE else ""
-            hint = f"; it is {elsewhere}.{name}" if elsewhere else ""
+            hint = f"; it is {elsewhere}.{name}" if elsewhere else self._nearest(name)
             raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}{hint}")
         vars(self)[name] = found
         return found
+
+    def _nearest(self, name: str) -> str:
+        """Return a hint with the name of the top level nearest to `name`; none for the names of Python."""
+        if self.__name__ != PACKAGE or name[0] == "_":
+            return ""
+        inputs = import_module(f"{PACKAGE}.core.inputs")
+        return str(inputs.nearest(name, self.__all__, inputs.LIKELY))
 
     def __setattr__(self, name: str, value: object) -> None:
         # Python binds every imported submodule to its package: not over a shown name that is the same.

@@ -113,7 +113,7 @@ class CouplingCase:
         return PilotRun(outcome, laws)
 
     def drift(self, run: PilotRun) -> Drift:
-        """Return how far a run is off; raises FilmContactError where it is at the wall within a step."""
+        """Return the error of a run; raises FilmContactError where it is at the wall within a step."""
         return drift(self.rotor, self.reaction, run.laws, self._inner(run))
 
     def _inner(self, run: PilotRun) -> InnerMotion:
@@ -408,7 +408,7 @@ def _rates(rotor: RigidRotor, laws: Sequence[ForceLaw], dt: Array) -> tuple[Arra
 def drift(
     rotor: RigidRotor, reaction: PlanarReaction, laws: Sequence[ForceLaw], motion: InnerMotion
 ) -> Drift:
-    """Return how far a coupled run is off.
+    """Return the error of a coupled run.
 
     The force of the film changes from the run to the true motion by its mean slopes between them. These are
     first those along the run, then half the sum of those at both ends and, if this changed the result,

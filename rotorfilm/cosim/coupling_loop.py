@@ -84,7 +84,9 @@ def coupling_loop(
         K[own, own], C[own, own], u[force[own]] = _film_matrices(film, felt[station], time)
     linear: Linearization = rotor.linearization(time, x, u)
     if np.any(linear.D[np.ix_([*position, *velocity], force)]):
-        raise InputError("rotor must have outputs that its inputs do not reach directly, got a matrix D != 0")
+        raise InputError(
+            "rotor must have outputs that do not depend directly on its inputs, got a matrix D that is not 0"
+        )
     return Loop(linear.A, linear.B[:, force], linear.C[position], linear.C[velocity], K, C)
 
 
@@ -95,9 +97,7 @@ def _named(model: Model) -> Names:
 def _film_matrices(film: Model, journal: Array, time: float) -> tuple[Array, Array, Array]:
     """Return K, C and the force of a film without states at the state of its journal."""
     if film.states:
-        raise InputError(
-            f"reaction must have no states where the stability of a coupling is asked for, got {film!r}"
-        )
+        raise InputError(f"reaction must have no states for the stability of a coupling, got {film!r}")
     rows = indices("film must have the outputs", names(film.outputs), FORCE_OUTPUTS)
     columns = indices("film must have the inputs", names(film.inputs), JOURNAL_INPUTS[:4])
     D = film.linearization(time, np.zeros(0), journal).D[np.ix_(rows, columns)]

@@ -365,13 +365,14 @@ def cosimulate(
         scheme is good enough for `Auto`.
     CouplingError
         If the forces alternate from step to step without decaying: the macro step is past the stability
-        limit. The run stops there; carries the CoSimulation until then.
+        limit. The run stops there; the error carries the CoSimulation until then.
     ContactError
-        If the journal reached the wall; carries the CoSimulation until then.
+        If the journal reached the wall; the error carries the CoSimulation until then.
     FmuError
         If a file is no such FMU; as FmuRunError, with the CoSimulation until then, if an FMU fails.
     ConvergenceError
-        If the scheme or the rotor's integration does not converge; carries the CoSimulation until then.
+        If the scheme or the rotor's integration does not converge; the error carries the CoSimulation
+        until then.
     """
     require_times(macro_step, duration)
     films = film_fmu if isinstance(film_fmu, Mapping) else {"": film_fmu}

@@ -16,6 +16,7 @@ from scipy.linalg import expm
 
 from ..core import signals
 from ..core.errors import ConvergenceError, InputError
+from ..core.inputs import require_choice
 from ..core.model import Array, Dynamic, Linearization, Model, Stepped, breakpoints
 from ..core.port import in_time
 from ..fmu.reference import advance
@@ -111,8 +112,8 @@ def require_no_mass(film: Sequence[str], rotor: Sequence[str]) -> None:
         raise InputError(
             "film must not add mass to a rotor without inputs for it, got the outputs "
             f"{list(signals.MASS_OUTPUTS)}. An exchange of accelerations multiplies its error by -mass/rotor "
-            "mass, and diverges if the oil is heavier than the rotor: use mount(rotor, ...), which has both "
-            "in one FMU"
+            "mass, and diverges if the oil is heavier than the rotor: use mount(rotor, ...), which makes "
+            "one FMU of rotor and film"
         )
 
 
@@ -264,8 +265,7 @@ class _Held(Slave):
     def set(self, values: Mapping[str, float]) -> None:
         """Set inputs by name; raise InputError for a name that is none."""
         for name, value in values.items():
-            if name not in self.inputs:
-                raise InputError(f"input must be one of {list(self.inputs)}, got {name!r}")
+            require_choice("input", name, self.inputs)
             self._u[self.inputs.index(name)] = value
 
 

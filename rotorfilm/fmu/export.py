@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from ..core.errors import FmuError, InputError, require_finite, require_positive
 from ..core.files import write_atomically
-from ..core.inputs import arguments, quantity
+from ..core.inputs import arguments, quantity, require_choice
 from ..core.model import Array, Dynamic, Linearization, Model, Stepped
 from ..core.port import freedoms_of, in_time, inertial
 from ..core.signals import PLANAR, Signal, indices, names
@@ -168,8 +168,9 @@ def exported_subject(model: Any) -> Model | Stepped:
         raise FmuError(f"model must have initial_state and derivative, as it has states, got {model!r}")
     if inertial(subject) is not None and freedoms_of(subject) != PLANAR:
         raise FmuError(
-            f"model must not add mass to motions beside x and y, which an FMU cannot tell, got {model!r}: "
-            "mount(rotor, ...) has both in one FMU"
+            "model must not add mass to motions other than x and y, because an FMU has no outputs for it, "
+            f"got {model!r}: "
+            "mount(rotor, ...) makes one FMU of rotor and film"
         )
     return subject
 
@@ -178,8 +179,7 @@ def is_native(model: Model | Stepped, spec: NativeSpec | None, backend: str | No
     """Return whether the C library runs the model; raise where the backend asked for cannot."""
     if backend is None:
         return spec is not None
-    if backend not in BACKENDS:
-        raise InputError(f"backend must be one of {list(BACKENDS)} or None, got {backend!r}")
+    require_choice("backend", backend, BACKENDS)
     if backend == "native" and spec is None:
         raise FmuError(
             f"model must have a kernel in the C library for backend='native', got {model!r}; "
@@ -194,11 +194,10 @@ def require_supported(path: Path, version: str, native: bool, platforms: str) ->
         raise InputError(f"path must end in .fmu, got {str(path)!r}")
     if version not in VERSIONS:
         meant = next((f": as text, version={one!r}" for one in VERSIONS if str(version) in (one, one[0])), "")
-        raise InputError(f"version must be one of {list(VERSIONS)}, got {version!r}{meant}")
+        raise InputError(f"version must be one of {', '.join(VERSIONS)}, got {version!r}{meant}")
     if version == "3.0" and not native:
         raise FmuError("version must be '2.0' for the python backend: PythonFMU has no FMI 3.0, got '3.0'")
-    if platforms not in PLATFORMS:
-        raise InputError(f"platforms must be one of {list(PLATFORMS)}, got {platforms!r}")
+    require_choice("platforms", platforms, PLATFORMS)
     if platforms == "all" and not native:
         raise FmuError("platforms must be 'host' for the python backend, which brings its own, got 'all'")
 

@@ -10,7 +10,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 from ..core.errors import InputError, require_positive
 from ..core.files import write_atomically
-from ..core.inputs import arguments
+from ..core.inputs import arguments, require_choice
 from ..core.model import Dynamic, Model, Stepped
 from ..core.port import require_massless
 from ..core.units import UNITS
@@ -98,8 +98,7 @@ def export_ssp(
     target = Path(path)
     if target.suffix != ".ssp":
         raise InputError(f"path must end in .ssp, got {str(path)!r}")
-    if ssp not in VERSIONS:
-        raise InputError(f"ssp must be one of {list(VERSIONS)}, got {ssp!r}")
+    require_choice("ssp", ssp, VERSIONS)
     for argument, value in (("stop_time", stop_time), ("step_size", step_size)):
         require_positive(argument, value)
     stations = films if isinstance(films, Mapping) else {"": films}

@@ -94,7 +94,7 @@ class DamperCurveRung(CandidateRung):
             value, radius = self._searched(Counted(self.search) if self.search != self.support else counted)
             near = (value, radius) if self.search == self.support else self._from(counted, radius)
         if near is None:
-            raise errors.RotorfilmError(f"{self.name} has no orbit beside that of its map")
+            raise errors.RotorfilmError(f"{self.name} finds no orbit near the orbit of its map")
         return RungResult(near[0], {self.unit: counted.forces + counted.tangents, **made}, near[1])
 
     def _searched(self, reaction: Counted) -> tuple[float, float]:
@@ -477,8 +477,8 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     if scene.damper.supply is not None:
         if scene.damper.film is not None:
             raise errors.InputError(
-                f"damper.film must be left out beside supply for {quantity}, as only the film that conserves "
-                f"its oil knows the supply in time, got {scene.damper.film!r}"
+                f"damper.film must not be given with supply for {quantity}, because only the mass-conserving "
+                f"film has a supply that varies in time, got {scene.damper.film!r}"
             )
         duration = damper_films.damper_models(scene).duration
         return _run_ladder(

@@ -188,7 +188,7 @@ def motion_question(
     ----------
     scene : Scene
     make, counts, unit, distance
-        As of `FilmQuestion`; a count of 0 is the linear motion.
+        As in `FilmQuestion`; a count of 0 is the linear motion.
     **how
         `effort` or `scaled` of it.
     """

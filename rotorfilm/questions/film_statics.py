@@ -61,7 +61,7 @@ class FilmQuestion:
     value : callable
         The quantity of a rest, or of small motion about it.
     distance : callable
-        Takes a value and a better one, and returns how far it is off in the unit of the tolerance.
+        Takes a value and a better one, and returns its error in the unit of the tolerance.
     units : callable
         Takes the films and returns calls that do one unit of work of each.
     counts : tuple of int
@@ -133,7 +133,7 @@ class FilmQuestion:
         return self.judge
 
     def moved(self, film: FilmCandidate) -> Callable[[Any], float]:
-        """Return a call that takes another bearing and returns how far its answer by T1 is off."""
+        """Return a call that takes another bearing and returns the error of its answer by T1."""
         own = uniform_rest(film.reaction, self.load, self.speed)
         return lambda other: self.judge.apart(own, uniform_rest(other, self.load, self.speed))
 
@@ -476,7 +476,7 @@ class WhirlQuestion(FilmQuestion):
         return self.judged(WarmSolution(BALANCED, rung.answer(None), rung))
 
     def moved(self, film: FilmCandidate) -> Callable[[Any], float]:
-        """Return a call that takes another bearing and returns how far its threshold by T1 is off."""
+        """Return a call that takes another bearing and returns the error of its threshold by T1."""
         found, rung = self.uniform(BALANCED, film, 0, None).found, self.make(film, 0)
         return lambda other: relative(rung.around(other, found).speed, found.value)
 

@@ -42,7 +42,7 @@ class BallQuantity(NamedTuple):
     value : callable
         Takes a rest and the question, and returns the quantity.
     distance : callable
-        Takes a value and a better one, and returns how far it is off in the unit of the tolerance.
+        Takes a value and a better one, and returns its error in the unit of the tolerance.
     yielding : float [1]
         By how much the quantity is softer per film over approach.
     closed_form : callable or None
@@ -82,7 +82,7 @@ QUANTITIES = {
 
 @dataclass(frozen=True, kw_only=True)
 class BallQuestion:
-    """What is asked of a shaft at rest in its ball bearing, and how far the richest law is off.
+    """What is asked of a shaft at rest in its ball bearing, and the error of the richest law.
 
     Attributes
     ----------

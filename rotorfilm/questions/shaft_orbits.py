@@ -470,7 +470,7 @@ def shaft_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     levels, bearings = shaft_films.film_levels(given), given.build_bearings()
     if levels[0].on_oil:
         raise InputError(
-            f"journal of a bearing must have a viscosity for {quantity}, got an oil in {levels[0].on_oil}"
+            f"journal of a bearing must have a viscosity for {quantity}, got an oil, {levels[0].on_oil}"
         )
     duration, fastest = run_span(scene)
     at = scene.question.at if scene.question is not None else ""

@@ -115,7 +115,7 @@ class ThrustQuestion:
         return thrust_rest(bearing, self.table.load, self.speed)
 
     def distance(self, value: float, better: float) -> float:
-        """Return how far a value is off in the unit of the tolerance."""
+        """Return the error of a value in the unit of the tolerance."""
         supply = self.table.one_side().cooled[1].supply_temperature if self.is_warming else 0.0
         return self.row.distance(value, better, supply)
 

@@ -78,7 +78,7 @@ def report_scene(
     vary : mapping of str to sequence, optional
         Keys and their values, for a sweep; see `sweep`.
     tolerances : mapping of str to float or str, optional
-        Keys and how far they may be off, for a study of tolerances; see `tolerance_study`.
+        Keys and their largest deviations, for a study of tolerances; see `tolerance_study`.
     quantity : str
         What the study of tolerances is about.
     samples : int

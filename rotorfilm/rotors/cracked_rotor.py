@@ -235,7 +235,7 @@ class CrackedRotor(AroundStructure):
     Raises
     ------
     InputError
-        If the crack is none of the rotor's shaft, or there is neither gravity nor an opening angle.
+        If the crack does not fit the rotor, or there is neither gravity nor an opening angle.
     """
 
     rotor: JeffcottRotor | ShaftRotor

@@ -103,9 +103,9 @@ class UnbalancePlane(NamedTuple):
     Attributes
     ----------
     station : str
-        Of the rotor, at its node, without a bearing.
+        Station of the rotor at the node of this plane, without a bearing.
     unbalance : float [kg m]
-        That the rotor has there.
+        Unbalance of the rotor in this plane.
     unbalance_angle : float [rad]
     """
 
@@ -179,7 +179,7 @@ class MountedRotor(AroundRotor):
     ------
     InputError
         If the rotor has no such station or not all freedoms of its bearing, a bearing with states is not
-        Dynamic or takes other inputs than motion and speed, or there are not as many of both.
+        Dynamic or takes other inputs than motion and speed, or the numbers of stations and bearings differ.
     """
 
     rotor: Dynamic

@@ -106,7 +106,7 @@ def _held_modes(mass: Array, stiffness: Array, held: Array, count: int) -> Array
     except LinAlgError:
         rising = np.zeros(size)
     if rising[0] <= 1e-12 * rising[-1]:
-        raise InputError(f"rotor must be held by its stations, got {len(held)} that leave it free to move")
+        raise InputError(f"stations must hold the rotor, got {len(held)} that leave it free to move")
     return np.asarray(free @ (shapes / np.sqrt(rising))[:, ::-1][:, :count])
 
 
@@ -177,7 +177,7 @@ def reduce_rotor(rotor: FlexibleRotor, *, frequency: float, tolerance: float = 1
     InputError
         If an argument is not positive, or the stations do not hold the rotor.
     ConvergenceError
-        If not even all modes are enough; carries the last Reduction.
+        If not even all modes are enough; the error carries the last Reduction.
     """
     require_positive("frequency", frequency)
     require_positive("tolerance", tolerance)

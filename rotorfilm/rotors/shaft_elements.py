@@ -200,12 +200,12 @@ class LayeredElement:
 
     @property
     def mass_damping(self) -> float:
-        """Proportional damping of each layer by its mass [1/s]."""
+        """Mass-proportional damping coefficient of every layer [1/s]."""
         return self.layers[0].mass_damping
 
     @property
     def stiffness_damping(self) -> float:
-        """Proportional damping of each layer by its stiffness [s]."""
+        """Stiffness-proportional damping coefficient of every layer [s]."""
         return self.layers[0].stiffness_damping
 
     def matrices(self, beam: Beam) -> BeamMatrices:

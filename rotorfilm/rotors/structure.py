@@ -385,8 +385,8 @@ def freedom_rows(structure: Structure, station: str, freedoms: Sequence[str] = P
     for freedom, row in zip(freedoms, rows, strict=True):
         if row is None:
             raise InputError(
-                f"station {station!r} must have the freedom {freedom}, got a rotor without: "
-                f"{_ROWS[freedom].given_by} gives it"
+                f"station {station!r} must have the freedom {freedom}, got a rotor without it: "
+                f"{_ROWS[freedom].given_by} adds it"
             )
     return np.array(rows, dtype=float).reshape(len(rows), len(structure.weight))
 

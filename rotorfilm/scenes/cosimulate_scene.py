@@ -10,7 +10,8 @@ import numpy as np
 
 from .. import cosim
 from ..analysis import simulate
-from ..core.errors import ContactError, InputError
+from ..core.errors import ContactError
+from ..core.inputs import require_choice
 from ..core.model import Array, Stepped
 from ..core.port import clearance_of, in_time
 from ..core.progress import Report, part_of, silent
@@ -107,8 +108,7 @@ def scheme_named(name: str, tolerance: float) -> cosim.Scheme | cosim.Auto:
         return cosim.Auto(tolerance=tolerance)
     if name == "adaptive":
         return cosim.Adaptive(tolerance=tolerance)
-    if name not in SCHEMES:
-        raise InputError(f"--scheme must be one of {['auto', *SCHEMES]}, got {name!r}")
+    require_choice("--scheme", name, ("auto", "adaptive", *SCHEMES))
     return SCHEMES[name]
 
 

@@ -343,7 +343,7 @@ class HeatSteps:
 def heat_error(
     own: Any, start: Any, sample: tuple[Any, Any, Any, Any, Any], distance: Callable[[Any, Any], float]
 ) -> HeatError:
-    """Return how far a value is off, by those of steps.
+    """Return the error of a value, by those of steps.
 
     Parameters
     ----------
@@ -352,7 +352,7 @@ def heat_error(
     sample : tuple of five
         Sample of `HeatSteps.sample`.
     distance : callable
-        Takes a value and a better one, and returns how far it is off.
+        Takes a value and a better one, and returns its error.
     """
     last, before, coarse, fine, long = (np.asarray(one) for one in sample)
     last, before, coarse = last - fine + start, before - fine + start, coarse - long + start
@@ -372,7 +372,7 @@ class RestJudge:
     value : callable
         Takes a rest and returns the quantity.
     distance : callable
-        Takes a value and a better one, and returns how far it is off in the unit of the tolerance.
+        Takes a value and a better one, and returns its error in the unit of the tolerance.
     moving : callable
         Takes the bearing and returns the error by heat that moves with the journal; 0 of one at rest.
     """
@@ -464,7 +464,7 @@ FIELD_LEVELS = MEAN, REFERENCE, FieldLevel(level="T3", cells=(160, 16), layers=1
 def grid_error(
     level: FieldLevel, own: Rest, rest: Callable[[FieldLevel], Rest], apart: Callable[[Rest, Rest], float]
 ) -> float:
-    """Return how far a quantity by T3 is off at most about, by its cells and layers.
+    """Return about the largest error of a quantity by T3, from its cells and layers.
 
     That is the change since cells twice as long and since half the layers. Heat moves upwind, of first order
     in the cells, but the edge of the ruptured zone moves by whole ones, so that a change may be small by
@@ -479,7 +479,7 @@ def grid_error(
     rest : callable
         Takes a level and returns what it answers.
     apart : callable
-        Takes an answer and a better one, and returns how far it is off.
+        Takes an answer and a better one, and returns its error.
     """
     coarse = rest(level.coarser)
     pairs = (

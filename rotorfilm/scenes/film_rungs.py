@@ -610,7 +610,7 @@ def minimum_radial_clearance(bearing: port.PlanarReaction) -> float:
     return float(minimum_film(bearing, np.zeros(2)))
 
 
-# One rung of a journal film: a bearing with a film that may answer, what it costs, and how far it is off.
+# One rung of a journal film: a bearing with a film that may answer, what it costs, and its error.
 
 
 MAP_BOUNDS = ((0.95, 2e-5, 1e-3), (0.999, 4e-4, math.inf))

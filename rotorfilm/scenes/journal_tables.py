@@ -226,7 +226,7 @@ class JournalTable(ConservingTable, OiledTable):
         named = self.named_film
         if named is not None and self._supply_keys:
             raise InputError(
-                f'{self._supply_keys[0]} must be left out unless film is {{name = "jfo"}} or not given, '
+                f'{self._supply_keys[0]} is only for film = {{name = "jfo"}} or where film is not given, '
                 f"got film {journal.film_name(named)}"
             )
         openings = (*self.grooves, *self.feed_holes)

@@ -375,7 +375,7 @@ class DamTable(PadTable):
         given = self.given((*NEEDED, *FURTHER))
         for name in NEEDED:
             if not self.pads and name not in given:
-                raise InputError(f"{name} of the dam is required where there are no pads, and missing")
+                raise InputError(f"{name} of the dam is required if there are no pads, got none")
         for name, value in given.items():
             if self.pads:
                 raise InputError(f"{name} must not be given beside pads, got {value!r}")

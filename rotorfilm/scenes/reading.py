@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar, get_args, g
 from ..analysis.equilibrium import UNLOADED
 from ..core.errors import InputError, SceneError, brief, shortened
 from ..core.files import read_text
-from ..core.inputs import nearest, require_no_near_miss, temperatures_of, units_of
+from ..core.inputs import nearest, require_choice, require_no_near_miss, temperatures_of, units_of
 from ..core.limits import FILM_CELLS, SHAFT_ELEMENTS, TEXT
 from ..core.readable import entries, explained
 from ..core.units import parse_quantity, si_name
@@ -260,7 +260,7 @@ class Variant:
         data = dict(require_table(where, value))
         if self.tag not in data:
             require_no_near_miss(f"{where}.", self.tag, data)
-            raise SceneError(f"{where}.{self.tag} is required: one of {sorted(self.variants)}")
+            raise SceneError(f"{where}.{self.tag} is required: one of {', '.join(sorted(self.variants))}")
         variant = choose(f"{where}.{self.tag}", data.pop(self.tag), self.variants)
         return read_table(variant, f"{where}.", data)
 
@@ -286,10 +286,8 @@ class Beside(NamedTuple):
 
 def choose(where: str, name: object, variants: Mapping[str, V]) -> V:
     """Return what has this name; raise SceneError if there is none."""
-    if not isinstance(name, str) or name not in variants:
-        hint = nearest(name, variants)
-        raise SceneError(f"{where} must be one of {sorted(variants)}, got {brief(name)}{hint}")
-    return variants[name]
+    require_choice(where, name, sorted(variants), SceneError)
+    return variants[str(name)]
 
 
 def text(where: str, value: Any) -> str:
@@ -487,10 +485,8 @@ def one_of(names: Mapping[str, Any]) -> Callable[[str, Any], str]:
 
     @takes(names)
     def read(where: str, value: Any) -> str:
-        if not isinstance(value, str) or value not in names:
-            hint = nearest(value, names)
-            raise SceneError(f"{where} must be one of {', '.join(names)}, got {brief(value)}{hint}")
-        return value
+        require_choice(where, value, names, SceneError)
+        return str(value)
 
     return read
 

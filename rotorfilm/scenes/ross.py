@@ -282,7 +282,7 @@ def _chain(
         if node != len(chain):
             raise InputError(f"{file} must have a ShaftElement at every node, got none at node {len(chain)}")
         if len(between) > 1 and len(layers) < len(between):
-            raise InputError(f"{file} must have a coupling alone between its nodes, got more at node {node}")
+            raise InputError(f"{file} must have no shaft element beside a coupling, got one at node {node}")
         chain.append(rotors.LayeredElement(layers=layers) if len(layers) > 1 else between[0])
     if not chain:
         raise InputError(f"{file} must have a ShaftElement, got none")
@@ -394,7 +394,9 @@ def to_ross(
     }
     speeds = np.asarray(bearing.speeds) if isinstance(bearing, TabulatedBearing) else None
     if speeds is not None and len(speeds) < 4:
-        raise InputError(f"speeds must be at least 4 for ROSS, got {len(speeds)}")
+        raise InputError(
+            f"speeds must be at least 4 numbers, which ROSS needs to interpolate, got {len(speeds)}"
+        )
     element = _ross().BearingElement
     if speeds is not None:
         # From 3 on what ROSS calls frequency is that of the whirl.

@@ -83,12 +83,14 @@ def scene_of(rotor: ShaftRotor, bearings: Bearings, speeds: ArrayLike, title: st
     try:
         found = read_scene(tables, "scene")
     except SceneError as error:
-        raise InputError(f"rotor must be what a scene file may hold: {error}") from None
+        raise InputError(f"rotor must be one that a scene file can describe: {error}") from None
     if found.shaft.build(speed=rotor.profile.speed(0.0)) != rotor:
-        raise InputError("rotor must be what a scene file may hold, got one with more than that")
+        raise InputError("rotor must be one that a scene file can describe, got one with further properties")
     for name, one in found.shaft.build_bearings().items():
         if one != bearings[name]:
-            raise InputError(f"bearings[{name!r}] must be what a scene file may hold, got {bearings[name]!r}")
+            raise InputError(
+                f"bearings[{name!r}] must be one that a scene file can describe, got {bearings[name]!r}"
+            )
     return found
 
 
@@ -137,5 +139,7 @@ def save_scene(scene: Scene, path: Path | str) -> Path:
     from .new_scene import scene_text
 
     if not scene.given:
-        raise InputError("scene must be read, or made by scene_of, to be saved, got one of tables")
+        raise InputError(
+            "scene must come from Scene.load or scene_of to be saved, got one that was built from tables"
+        )
     return write_atomically(path, scene_text(scene.given).encode())

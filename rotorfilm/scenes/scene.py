@@ -118,7 +118,7 @@ class Scene:
     ------
     InputError
         If there is no bearing, or a journal bearing without an operation, or with a load that is neither
-        given nor follows from the weight of a rotor; if the question is about a place that is not there.
+        given nor follows from the weight of a rotor; if the question is about a place that does not exist.
     """
 
     title: str = "untitled scene"
@@ -487,7 +487,7 @@ def _inside(key: str, place: Any, part: str) -> Any:
         return place.setdefault(part, {})
     if isinstance(place, list) and (number := _entry(place, part)) is not None:
         return place[number]
-    raise SceneError(f"{key} must lead through tables of the scene, got no {part!r}")
+    raise SceneError(f"{key} must be the dotted name of a key in a table of the scene, got no table {part!r}")
 
 
 def _entry(place: list[Any], part: str) -> int | None:
@@ -502,7 +502,9 @@ def _set(key: str, place: Any, last: str, value: Any) -> None:
     elif isinstance(place, list) and (number := _entry(place, last)) is not None:
         place[number] = value
     else:
-        raise SceneError(f"{key} must lead through tables of the scene, got no {last!r}")
+        raise SceneError(
+            f"{key} must be the dotted name of a key in a table of the scene, got no table {last!r}"
+        )
 
 
 def json_schema() -> str:

@@ -119,7 +119,7 @@ class ThrustTable(OiledTable):
             return pads
         if pads.is_warming:
             raise InputError(
-                f"viscosity must be given beside play, as each side has a temperature of its own, got "
+                "viscosity must be given with play, because each side has a temperature of its own, got "
                 f"{self.viscosity!r}"
             )
         return thrust.double_acting(pads, self.play)
@@ -133,7 +133,7 @@ class ThrustTable(OiledTable):
             If it has no viscosity, or pads on one side have no load.
         """
         if self.viscosity is None:
-            raise InputError("viscosity must be given of a thrust bearing of a shaft, got None")
+            raise InputError("viscosity must be given for the thrust bearing of a shaft, got None")
         pads = self.one_side()
         with suppress(InputError):
             pads = replace(pads, tabulated=True)
@@ -333,11 +333,14 @@ def rest_at_film(bearing: Any, film: float, speed: float) -> ThrustRest:
         return float(pads.minimum_film([over * film - pads.gap, 0.0, 0.0])) - film
 
     if not excess(NARROW) < 0.0 < excess(WEDGE):
-        raise InputError(f"smallest_film must be one that the pads can have over their lands, got {film!r}")
+        raise InputError(
+            f"smallest_film must be a film thickness that the lands of the pads can have, got {film!r} m"
+        )
     place = np.array([film * brentq(excess, NARROW, WEDGE, rtol=1e-10) - pads.gap, 0.0, 0.0])
     if isinstance(bearing, Parallel) and place[0] > 0.0:
         raise InputError(
-            f"smallest_film must leave half of the play, {pads.gap!r} m, over pivots or lands, got {film!r}"
+            f"smallest_film must leave at least half of the play, {pads.gap!r} m, over pivots or lands, got "
+            f"{film!r} m"
         )
     if not pads.is_warming:
         return _carrying(ThrustRest(place, speed, bearing), film)

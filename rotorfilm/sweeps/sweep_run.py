@@ -88,7 +88,7 @@ def sweep(
     InputError
         If an argument breaks its rule, xarray is not installed, or the path holds another sweep.
     SceneError
-        If the scene or one of the values is none that a scene file may have.
+        If a scene file may not have the scene or one of the values.
 
     Warns
     -----

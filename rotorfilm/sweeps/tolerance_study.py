@@ -22,7 +22,7 @@ from ..core.errors import (
     warn_user,
 )
 from ..core.frames import Column, ResultTable
-from ..core.inputs import arguments, nearest
+from ..core.inputs import arguments, nearest, require_choice
 from ..core.model import Array
 from ..core.progress import Report, silent
 from ..core.readable import Drawable
@@ -209,8 +209,7 @@ def tolerance_study(
     reasons = [one for one in map(str, found["failure"].values) if one]
     if not numbers:
         raise AbsentError(f"{name} must have a value without deviations, got none: {reasons[0]}")
-    if name not in numbers:
-        raise InputError(f"quantity must be one of {', '.join(map(str, numbers))}, got {name!r}")
+    require_choice("quantity", name, map(str, numbers))
     asked = str(tables["question"]["quantity"]) if name == "value" else name
     return _study(draws, found[name].values, asked, str(found[name].attrs.get("units", "")), reasons)
 

@@ -317,7 +317,7 @@ def test_a_ruptured_damper_has_a_rest_and_no_derivative_there():
 
 def test_where_the_outer_film_cannot_carry_there_is_no_rest():
     series = Series(FILM, Body(2.0), RING)  # the body does not turn: no wedge, and no derivative
-    with pytest.raises(EquilibriumError, match="reaction must have states that rest with the shaft at"):
+    with pytest.raises(EquilibriumError, match="reaction must have an equilibrium of its states"):
         rest_state(series, [9e-4, 0.0], SPEED)
 
 
@@ -498,8 +498,11 @@ WRONG = [
         lambda: Series(Springs(("tilt_x",), (1.0,)), Body(1.0), THRUST),
         "must react to one motion that the body has",
     ),
-    (lambda: Series(WARM, Body(1.0), RING), "outer must have a temperature, or have it as a state"),
-    (lambda: Parallel((RING, WARM)), r"reactions\[1\] must have a temperature"),
+    (
+        lambda: Series(WARM, Body(1.0), RING),
+        "outer must have a given temperature, or the temperature as a state",
+    ),
+    (lambda: Parallel((RING, WARM)), r"reactions\[1\] must have a given temperature"),
     (lambda: Parallel((RING,)), "reactions must be two at least, got 1"),
     (lambda: Parallel((RING, "seal")), r"reactions\[1\] must be a Reaction"),
     (

@@ -75,7 +75,7 @@ def test_a_coupling_past_its_limit_is_a_failure_and_keeps_what_it_had(capsys, tm
 
 def test_bad_input_is_named(capsys):
     assert run("cosim", SCENE, "--scheme", "best") == 2
-    assert "--scheme must be one of ['auto', 'gauss-seidel-0'" in capsys.readouterr().err
+    assert "--scheme must be one of auto, adaptive, gauss-seidel-0" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("element", ["tilting_pad", "warm journal"])

@@ -147,7 +147,7 @@ def test_arguments_that_do_not_fit_are_named(nondimensional):
     with pytest.raises(FilmContactError, match=r"outside at 1\.0"):
         critical_macro_step(case.rotor, case.film, state=[1.0, 0.0, 0.0, 0.0])
     loop = AngularSpeedRotor(mass=1.0, speed=1.0)
-    with pytest.raises(InputError, match="rotor must have outputs that its inputs do not reach directly"):
+    with pytest.raises(InputError, match="rotor must have outputs that do not depend directly on its inputs"):
         critical_macro_step(loop, case.film, state=case.state)
 
 

@@ -78,7 +78,7 @@ def test_a_tilt_that_drives_the_film_alone_is_warned_of(version, table, opened):
     found = instance.get([reference[one] for one in OUTPUTS])
     with pytest.warns(ValidityWarning, match="1.5 times"):
         np.testing.assert_allclose(found, model.output(0.0, (), state), rtol=1e-12)
-    assert any("1.5 times as much as the displacement" in line for line in instance.log)
+    assert any("1.5 times as fast as the displacement" in line for line in instance.log)
 
 
 def test_what_has_no_kernel_has_none(table):

@@ -135,7 +135,7 @@ def test_a_wrong_quantity_names_argument_rule_and_value(wrong, message):
 
 
 def test_a_diameter_of_what_has_no_radius_is_no_argument():
-    with pytest.raises(TypeError, match=r"^diameter must be an argument of Pad"):
+    with pytest.raises(TypeError, match=r"^diameter is no known argument of Pad; known here: start, extent$"):
         rf.Pad(start=0.0, extent=1.0, diameter=1.0)
 
 
@@ -154,7 +154,7 @@ def test_a_diameter_of_what_has_no_radius_is_no_argument():
 )
 def test_an_unknown_argument_hints_at_the_one_that_is_meant(called, name, hint):
     with pytest.raises(
-        InputError, match=f"^{name} must be an argument of {called.__name__}; did you mean {hint}\\?$"
+        InputError, match=f"^{name} is no known argument of {called.__name__}; did you mean {hint}\\?$"
     ):
         called(**{name: 1.0})
 

@@ -215,7 +215,7 @@ def test_a_balance_beyond_the_law_of_the_oil_is_warned_of():
     warm = JournalBearing(
         radius=0.05, length=0.03, clearance=5e-5, film=ShortFilm(), oil=oil, cooling=cooling
     )
-    with pytest.warns(ValidityWarning, match="oil holds from 10 to 110 degC, and is taken at"):
+    with pytest.warns(ValidityWarning, match="oil is valid from 10 to 110 degC, and is used at"):
         equilibrium(warm, (0.0, -60.0), 600.0)
 
 
@@ -226,7 +226,9 @@ def test_print_of_a_film_that_warms_says_degrees_and_power():
     rows = dict(warm.to_rows())
     assert rows["temperature"] == f"{warm.temperature:.6g} K = {warm.temperature - 273.15:.6g} degC"
     assert rows["power loss"] == f"{warm.losses.power_loss:.6g} W"
-    with pytest.warns(ValidityWarning, match="where the oil is tabulated|oil holds from .* and is taken at"):
+    with pytest.warns(
+        ValidityWarning, match="where the oil is tabulated|oil is valid from .* and is used at"
+    ):
         odd = equilibrium(JournalBearing(**sizes, oil=Oil.iso_vg(46), cooling=cooling), (0.0, -1e-6), SPEED)
     assert "power loss" in str(odd)  # which does not warn
     cold = equilibrium(JournalBearing(**sizes, viscosity=0.1), (0.0, -525.0), SPEED)

@@ -16,7 +16,7 @@ from rotorfilm.bearings import ContactBalance, GlobalBalance, LocalMelting, Shar
 from rotorfilm.bearings.bush import BushReaction, BushWear, f4k20_bush
 
 pytestmark = pytest.mark.filterwarnings(
-    "ignore:(friction must cover the losses of|load and speed must keep) a worn contact"
+    "ignore:(friction must cover the heat losses of|load and speed must keep) a worn contact"
     ":rotorfilm.core.errors.ValidityWarning"
 )
 
@@ -144,12 +144,12 @@ def test_a_worn_contact_that_is_held_hot_for_nothing_is_told_once(unzipped, caps
     client, _ = opened(unzipped, model, FMU2Slave, u)
     client.step(0.0, 1e-3)
     client.get(*names(model))
-    assert capsys.readouterr().out.count("of them: it cools") == 1
+    assert capsys.readouterr().out.count("of them, so the contact cools") == 1
     for given in (249.0, 250.0):
         client, _ = opened(unzipped, replace(model, temperature=given), FMU2Slave, u)
         client.step(0.0, 1e-3)
         client.get(*names(model))
-        assert "it cools" not in capsys.readouterr().out
+        assert "contact cools" not in capsys.readouterr().out
 
 
 def accurate(model, u, duration):
@@ -191,7 +191,7 @@ def test_a_worn_bush_that_has_cooled_is_told_once(unzipped, capsys):
     client.get(*names(WEAR))
     client.step(0.0, 1e-3)
     client.get(*names(WEAR))
-    assert capsys.readouterr().out.count("taken to end on unworn liner") == 1
+    assert capsys.readouterr().out.count("takes it to end on unworn liner") == 1
     client, _ = opened(unzipped, WEAR, FMU3Slave, (0.3 * LOAD, 3.0))
     client.get(*names(WEAR))
     assert "unworn liner" not in capsys.readouterr().out

@@ -131,5 +131,5 @@ def test_sets_have_time_to_move_along_the_bearing():
 
 def test_transport_without_a_supply_is_refused():
     cells = replace(cells_of(1, supplied=False), along=np.zeros((N, M + 1)), wedge=np.ones((N, M)))
-    with pytest.raises(ConvergenceError, match="there may be no supply, or too thin a film"):
+    with pytest.raises(ConvergenceError, match="may have no supply, or be too thin"):
         solve_oil(cells, np.zeros((N, M)), np.ones((N, M)), np.zeros((N, M)))

@@ -148,11 +148,11 @@ def test_scene_describes_what_the_film_says():
 @pytest.mark.parametrize(
     ("film", "message"),
     [
-        (HOLE + '\nsubmerged = true\nfilm = { name = "reynolds" }', "submerged must be left out unless film"),
+        (HOLE + '\nsubmerged = true\nfilm = { name = "reynolds" }', "submerged is only for film"),
         (HOLE + "\nsupply_flow = 1e-6", "supply_pressure must be 0 where supply_flow is given"),
         (TOP + "\nsupply_flow = -1.0", "supply_flow must be finite and positive"),
         (TOP + '\ncavitation_pressure = "1 bar"', "cavitation_pressure must not be above 0"),
-        ('viscosity = 0.02\nfilm = { name = "jfo" }', "must have a supply"),
+        ('viscosity = 0.02\nfilm = { name = "jfo" }', "must have an oil supply"),
         (TOP + '\nfilm = { name = "jfo", cells = [15, 4] }', "cells must be two even numbers"),
     ],
 )

@@ -158,7 +158,7 @@ def test_a_shaft_with_a_free_station_has_the_derivatives_of_its_equations():
     ids=["whirl_threshold", "coefficient_table"],
 )
 def test_what_knows_no_added_mass_refuses_it(ask):
-    with pytest.raises(InputError, match="must not add its oil's mass to the rotor here"):
+    with pytest.raises(InputError, match="must not add the mass of its oil to the rotor"):
         ask(sprung(FULL))
 
 

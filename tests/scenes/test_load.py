@@ -201,11 +201,11 @@ def test_pads_arrive_in_si():
     [
         (
             'film = { name = "short" }\ngrooves = [{ center = 1.0 }]',
-            r"film must represent .*, which ShortFilm cannot: .*; ReynoldsFilm and, .*, MapFilm can",
+            r"film must represent .*, got ShortFilm, which cannot represent .*; ReynoldsFilm can",
         ),
         (
             'film = { name = "short" }\npads = [{ start = 0, extent = 3 }]',
-            r"film must .* which ShortFilm cannot",
+            r"film must .* ShortFilm, which cannot represent",
         ),
         ("grooves = 1", "grooves must be a list of tables, got 1"),
         ("grooves = [1]", r"grooves\[0\] must be a table, got 1"),
@@ -246,7 +246,7 @@ def test_pads_arrive_in_si():
         ('circumferential_groove = "-1 mm"', "circumferential_groove must be"),
         (
             'film = { name = "reynolds", film_start = { kind = "widest" } }',
-            r"film.film_start.kind must be one of \['free', 'line', 'widest_gap'\]",
+            r"film.film_start.kind must be one of free, line, widest_gap",
         ),
         (
             'film = { name = "reynolds", film_start = { kind = "free" } }\ncircumferential_groove = "1 m"',
@@ -273,7 +273,7 @@ def test_pads_arrive_in_si():
         ),
         (
             'film = { name = "reynolds", cavitation = { kind = "none" } }',
-            r"film.cavitation.kind must be one of \['complementarity', 'full', 'half.*, got 'none'",
+            r"film.cavitation.kind must be one of complementarity, full, half.*, got 'none'",
         ),
     ],
 )
@@ -339,7 +339,7 @@ def test_file_is_read(tmp_path):
         (
             "[operation]",
             "film = { order = [1, 1] }\n[operation]",
-            r"case.toml: journal.film.name is required: one of \['grooved_map', 'jfo', 'map', 'reynolds'",
+            r"case.toml: journal.film.name is required: one of grooved_map, jfo, map, reynolds",
         ),
         (
             "[operation]",
@@ -441,7 +441,7 @@ def test_question_takes_a_tolerance_in_per_cent():
     [
         ('[excitation]\nkind = "stpe"', r"excitation.kind must be one of .*; did you mean 'step'\?"),
         ('[excitation]\nkidn = "step"', r"excitation.kidn is no known key; did you mean 'kind'\?"),
-        ("[excitation]\nload = 1", r"excitation.kind is required: one of \['blade_loss'"),
+        ("[excitation]\nload = 1", r"excitation.kind is required: one of blade_loss"),
         (
             '[excitation]\nkind = "step"\nload = 1\nstart = 2\nend = 1',
             r"excitation.end must be after start, 2.0 s, got 1.0",

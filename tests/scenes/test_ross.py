@@ -166,7 +166,7 @@ def test_shaft_without_shear(tmp_path):
         ([element(0, 0), COUPLING + "cr_y = 3.0\n"], "cr_y must be 0, got 3.0"),
         (
             [element(0, 0), element(1, 1), COUPLING],
-            "must have a coupling alone between its nodes, got more at node 1",
+            "must have no shaft element beside a coupling, got one at node 1",
         ),
         (
             [element(0, 0), LINKED, '["PointMass_M"]\nn = 1\nmx = 1.0\nmy = 1.0\n'],

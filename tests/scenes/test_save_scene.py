@@ -50,7 +50,7 @@ def test_what_a_file_cannot_hold_is_refused(tmp_path):
         scene_of(ROTOR, {"left": pads, "right": SPRING}, [100.0, 200.0])
     with pytest.raises(rf.InputError, match=r"shaft\.gravity is no known key"):
         scene_of(replace(ROTOR, gravity=(0.0, 0.0)), {"left": FILM, "right": SPRING}, [100.0, 200.0])
-    with pytest.raises(rf.InputError, match=r"bearings\['left'\] must be what a scene file may hold"):
+    with pytest.raises(rf.InputError, match=r"bearings\['left'\] must be one that a scene file can describe"):
         scene_of(ROTOR, {"left": replace(SEAL, added_mass=False), "right": SPRING}, [100.0, 200.0])
     for bearings in ({"left": FILM}, {"left": FILM, "right": SPRING, "third": SPRING}):
         with pytest.raises(rf.InputError, match="bearings must be one for each station"):
@@ -61,7 +61,7 @@ def test_what_a_file_cannot_hold_is_refused(tmp_path):
     with pytest.raises(rf.InputError, match="speed is required for an AnnularSeal"):
         to_ross(SEAL, 0)
     made = scene_of(ROTOR, {"left": FILM, "right": SPRING}, [100.0, 200.0])
-    with pytest.raises(rf.InputError, match="scene must be read"):
+    with pytest.raises(rf.InputError, match=r"scene must come from Scene\.load"):
         replace(made, title="in Python").save(tmp_path / "scene.toml")
 
 

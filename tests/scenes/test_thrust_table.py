@@ -121,7 +121,9 @@ def test_the_load_of_fixed_pads_is_that_at_the_film_over_their_lands(profile):
     assert found == pytest.approx(bearing.force([20e-6, 0.0, 0.0], np.zeros(3), SPEED)[0], rel=1e-8)
     whole = THIN, 'step_depth = "30 um"\nstep_share = 1\nsmallest_film = "10 um"\n', RUN
     deep = scene_of(*whole, asked="thrust_load")
-    with pytest.raises(rf.InputError, match="smallest_film must be one that the pads can have"):
+    with pytest.raises(
+        rf.InputError, match="smallest_film must be a film thickness that the lands of the pads can have"
+    ):
         deep.ask()
 
 
@@ -250,7 +252,7 @@ def test_shafts_say_what_they_do_not_take_with_a_thrust_bearing():
     bare = SHAFT.replace("THRUST", f'{KEYS}viscosity = "20 mPa s"')
     with pytest.raises(rf.SceneError, match=r"thrust\.axial_load is required for an equilibrium"):
         parse_scene(bare, "case.toml")
-    with pytest.raises(rf.SceneError, match="viscosity must be given of a thrust bearing of a shaft"):
+    with pytest.raises(rf.SceneError, match="viscosity must be given for the thrust bearing of a shaft"):
         parse_scene(SHAFT.replace("THRUST", f'{KEYS}axial_load = "10 kN"'), "case.toml")
     asked = LOADED + RUN + '[question]\nquantity = "unbalance_amplitude"\ntolerance = 0.1\n'
     with pytest.raises(rf.InputError, match=r"shaft\.bearings must have no thrust bearing for unbalance_"):

@@ -259,7 +259,7 @@ def test_rows_of_another_sweep_are_refused(tmp_path):
         ({"journal.clearance": "50 um"}, "must be a sequence"),
         ({"journal.clearanse": ["50 um"]}, "clearanse is no known key.*did you mean 'clearance'"),
         ({"journal.clearance": ["50 um", "-1 um"]}, "clearance must be finite and positive"),
-        ({"title.deep": [1.0]}, "must lead through tables"),
+        ({"title.deep": [1.0]}, "must be the dotted name of a key in a table"),
         ({"journal.clearance": ("n", [1e-4, 2e-4]), "journal.viscosity": ("n", [0.1])}, "must have 2 values"),
     ],
 )

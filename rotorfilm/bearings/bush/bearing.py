@@ -267,8 +267,8 @@ class MeltingBush:
         expansion = self.closing * melting
         if self.clearance_ratio <= expansion:
             raise InputError(
-                f"radius - shaft_radius must exceed the thermal closing of {expansion:.6g} radii, "
-                f"got {self.clearance_ratio:.6g} radii"
+                "radius - shaft_radius must exceed the part of the clearance that thermal expansion closes, "
+                f"{expansion:.6g} radii, got {self.clearance_ratio:.6g} radii"
             )
         if self.friction.least(melting) <= 0.0:
             raise InputError(f"friction must be positive up to the melting point, got {self.friction!r}")
@@ -291,7 +291,7 @@ class MeltingBush:
 
     @property
     def closing(self) -> float:
-        """Thermal displacement of the liner's surface, by radius and kelvin, ln(R_2/R) B [1/K]."""
+        """Thermal displacement of the liner's surface over its radius, per kelvin: ln(R_2/R) B [1/K]."""
         nu = self.liner.poisson_ratio
         return self.thickness_ratio * self.liner.expansion * (1.0 + nu) / (1.0 - nu)
 

@@ -385,7 +385,7 @@ class BushReaction(Called):
         return np.arctan2(self._liner.nodes.normal[1], self._liner.nodes.normal[0])
 
     def native(self) -> NativeSpec | None:
-        """Return the kernel of the C library that is this model; None for a subclass or other rule."""
+        """Return the kernel of the C library that is this model; None for another class or melting rule."""
         known = type(self.melting) in (SharedMelting, LocalMelting) and has_kernel(self.bush)
         if type(self) is not BushReaction or not known:
             return None
@@ -616,8 +616,8 @@ class LinerAtTemperature:
         touches = reach > self.gap * self.radius
         if np.any(beside & touches) or max(depth[0].max(), depth[-1].max()) > 0.0:
             raise FilmContactError(
-                f"contact must stay on the arc of nodes, {extent!r} rad about {center!r} rad, "
-                f"got a shaft moved by {np.max(reach):.6g} m"
+                f"contact must stay on the arc of nodes, {extent!r} rad wide about {center!r} rad, got a "
+                f"displacement of {np.max(reach):.6g} m that leaves it"
             )
 
     def settled(self, load: ArrayLike, speed: float, wear: Array) -> tuple[Array, Pressed]:
@@ -710,8 +710,9 @@ class LinerAtTemperature:
         if rule.margins(at).max() < -COVERED_TO * lost:
             # Without the number: Python tells a text once for each line of the user.
             warn_user(
-                "friction must cover the losses of a worn contact at its melting point, got less than "
-                f"{1.0 - COVERED_TO:.0%} of them: it cools; `rest` answers how far, `temperature` holds it"
+                "friction must cover the heat losses of a worn contact at its melting point, got less than "
+                f"{1.0 - COVERED_TO:.0%} of them, so the contact cools: `rest` tells its temperature, and "
+                "`temperature` prescribes it"
             )
 
 
@@ -767,7 +768,8 @@ def settle(nodes: Nodes, offset: Array, target: Array, start: Array) -> Array:
         at, pressed, miss = at - part * step, trial, missed
     if not math.hypot(*miss) <= ACCEPTED * size:
         raise ConvergenceError(
-            f"load must be one that the liner can carry, got a rest of {math.hypot(*miss) / size:.3g} of it",
+            "load must be one that the liner can carry: the search ended with "
+            f"{math.hypot(*miss) / size:.3g} of the load unbalanced",
             at,
         )
     return at

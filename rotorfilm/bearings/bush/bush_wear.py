@@ -115,7 +115,7 @@ class BushWear:
         return np.array([self.wear])
 
     def native(self) -> NativeSpec | None:
-        """Return the kernel of the C library that is this model; None for a subclass or a foreign balance."""
+        """Return the kernel of the C library that is this model; None for another class or heat balance."""
         if type(self) is not BushWear or not has_kernel(self.bush):
             return None
         parameters = bush_parameters(self.bush, self.melting_heat)
@@ -262,8 +262,8 @@ class BushWear:
         if moment > 0.0 and temperature < (1.0 - COOLED) * self._law.melting:
             warn_user(
                 "load and speed must keep a worn contact at its melting point, got less than "
-                f"{1.0 - COOLED:.0%} of that temperature: it is taken to end on unworn liner, too wide "
-                "and too cold; BushReaction.rest knows its profile"
+                f"{1.0 - COOLED:.0%} of that temperature. The model then takes the contact to end on unworn "
+                "liner, and makes it too wide and too cold. BushReaction.rest has the worn profile"
             )
 
     @cached_property

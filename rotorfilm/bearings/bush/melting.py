@@ -40,7 +40,7 @@ class ExactShaft:
 
 @dataclass(frozen=True)
 class ApproximateShaft:
-    """Q_1 as published, by the closed form (2.13): 0.6 to 2.9 % high for cooling 0.02 to 0.3."""
+    """The heat flux Q_1 by the published closed form (2.13), 0.6 to 2.9 % too high at cooling 0.02 to 0.3."""
 
     def flux(self, cooling: float, stubbiness: float) -> float:
         """Return the flux Q_1 in units of lambda_1 T_*/R_1; warn beyond the `COOLING_LIMIT` of the source."""

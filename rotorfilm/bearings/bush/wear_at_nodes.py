@@ -197,15 +197,16 @@ def settle_along(nodes: Nodes, offset: Array, pull: float, start: float) -> tupl
             return at, pressed
         if step > 0.0 and at == last:
             raise ConvergenceError(
-                f"half the contact must stay below {nodes.step * (cosine.size // 2):.3g} rad, got a wider one"
+                f"half of the contact angle must stay below {nodes.step * (cosine.size // 2):.3g} rad, got a "
+                "larger one"
             )
         at = min(at + step, last)
     pressed = press(nodes, at * cosine - offset)
     left = abs(pull - float(cosine @ pressed.load))
     if not left <= ACCEPTED * pull:
         raise ConvergenceError(
-            f"load must be carried by the worn liner, and after {MAX_ITERATIONS} steps {left / pull:.3g} of "
-            "it is not"
+            f"load must be one that the worn liner carries, and after {MAX_ITERATIONS} steps "
+            f"{left / pull:.3g} of it is not balanced"
         )
     return at, pressed
 

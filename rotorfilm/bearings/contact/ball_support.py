@@ -80,8 +80,8 @@ class BallSupport(Called):
             raise InputError(f"position must be two numbers, got {self.position!r}")
         if not self.clearance > 0.0:
             raise InputError(
-                f"gap must leave the balls below {self.law.load_range[1]:.6g} N, to which their law was "
-                f"fitted, got {self.gap!r}"
+                f"gap must keep the load of each ball below {self.law.load_range[1]:.6g} N, the largest to "
+                f"which its law was fitted, got {self.gap!r}"
             )
 
     @property
@@ -358,8 +358,8 @@ def _require_range(law: ContactLaw, force: Array) -> None:
     if force.min() < lowest or force.max() > highest:
         warn_user(
             f"force must stay within {lowest:.6g} and {highest:.6g}, the loads to which the law was fitted, "
-            f"got {force.min():.3g} to {force.max():.3g}: take the law about a load of its middle "
-            "(reduce_contact and reduce_ball: load), or the full film"
+            f"got {force.min():.3g} to {force.max():.3g}: fit the law at a load in the middle "
+            "(argument load of reduce_contact and reduce_ball), or take the full film"
         )
 
 

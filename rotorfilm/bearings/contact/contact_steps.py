@@ -613,15 +613,15 @@ def _require_same(begun: ContactRun, asked: str, motion: ContactMotion) -> None:
         )
         at = asked.rfind(" ", 0, same) + 1  # where they part, for the whole may be long
         raise InputError(
-            f"start must be gone on with as it was begun, by {shortened(begun.asked[at:])}, "
+            f"start must be continued with the arguments that it began with, {shortened(begun.asked[at:])}, "
             f"got {shortened(asked[at:])}"
         )
     # Functions do not say what they are: they are compared where the run has been.
     for t, driven in zip(begun.time.tolist(), begun.driven.tolist(), strict=True):
         if (drive := motion.drive(t)) != driven:
             raise InputError(
-                f"start must be gone on with as it was begun, driven by {driven!r} at t = {t:.6g}, "
-                f"got {drive!r}"
+                f"start must be continued with the drive that it began with, {driven!r} at t = {t:.6g}, got "
+                f"{drive!r}"
             )
 
 

@@ -150,7 +150,7 @@ class NewtonKrylov:
         """Return the changes of pressure and approach, and the iterations."""
         wet = linear.place.wet
         if linear.place.closure.approach == 0.0 and not np.any(wet):
-            raise ConvergenceError("some cell must hold film for a load to rest on, got none")
+            raise ConvergenceError("at least one cell must have a film that carries load, got none")
         right = np.append(residual, miss)
         if self.equations.is_dense:
             answer = linear.solved(right)

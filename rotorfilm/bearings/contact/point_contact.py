@@ -224,14 +224,14 @@ class PointContact:
         Raises
         ------
         InputError
-            If a run to go on with was begun with other arguments, or under another load until now.
+            If an interrupted run began with other arguments, or had another load so far.
         ConvergenceError
             If a step fails; its `partial` is the run up to there.
 
         Warns
         -----
         FileWarning
-            If the run cannot be saved on its way.
+            If the run cannot be saved while it proceeds.
         """
         force = load if callable(load) else _Constant(require_number("load", load))
         motion = BallMotion(W=W, load=force, unit=self.equations.ellipse.load)
@@ -251,11 +251,11 @@ class PointContact:
         return self._run(start, GivenMotion(approach=approach), duration, control, snapshots, keep)
 
     def save(self, run: ContactRun, path: str | Path) -> None:
-        """Write a run and what it takes to go on with it, as NetCDF; snapshots are left out."""
+        """Write a run as NetCDF, with the data to continue it but without its snapshots."""
         save_run(run, path, repr(self))
 
     def load(self, path: str | Path) -> ContactRun:
-        """Return a run of this contact from a file; raise InputError if it is of another one, or damaged."""
+        """Return a run of this contact from a file; InputError if it is damaged or of another contact."""
         return load_run(path, repr(self), self.equations)
 
     def _run(
@@ -708,7 +708,7 @@ class MovingContact:
         Raises
         ------
         ConvergenceError
-            If the equations cannot be solved even on steps halved several times; the old state stays good.
+            If the equations cannot be solved even on steps halved several times; the old state stays valid.
         """
         if dt == 0.0:
             return state, self.answer(state), {"steps": 0}

@@ -48,8 +48,8 @@ def reduce_contact(contact: PointContact, order: int = 5, load: float = 1.0) -> 
     order : int
         States of the dynamic part.
     load : float [1]
-        f, about which the law is made: its dynamic stiffness is that under `load`, and its loads reach from
-        0.2 to 3 times as much. The rectangle is then the grid's in the Hertzian radii of that load.
+        Load f about which the law is fitted. Its dynamic stiffness is that under this load, and it holds for
+        loads from 0.2 to 3 times as large. The rectangle of the grid is in Hertzian radii of this load.
 
     Warns
     -----
@@ -84,9 +84,9 @@ def interpolate_contact(contact: PointContact, order: int = 5, load: float = 1.0
 
 @arguments
 def reduce_ball(ball: RollingBall, contact: PointContact, order: int = 5, load: float = 1.0) -> ContactLaw:
-    """Return the law of a rolling ball in SI, from its contact (`ball.contact(...)`).
+    """Return the reduced law of a rolling ball in SI units, from its contact (`ball.contact(...)`).
 
-    `load` is relative to that of the ball; for it and the others see `reduce_contact`.
+    The argument `load` is relative to the load of the ball; `reduce_contact` explains all arguments.
     """
     return in_si(ball, contact, reduce_contact(contact, order, load))
 

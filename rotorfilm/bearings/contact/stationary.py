@@ -64,8 +64,10 @@ def stationary(equations: ContactEquations, load: float, tolerance: float = 1e-7
     advice = f"take a larger V or {sides} cells" if finer > 1.0 else "take other cells"
     raise ConvergenceError(
         f"the cells must be fine enough for the film at V = {equations.V:.4g}, Q0 = {equations.Q0:.4g}, got "
-        f"cells of {width:.3g}, known to hold V down to some {least:.2g}: continuation from a thicker film "
-        f"came to V = {near.V:.4g}, Q0 = {near.Q0:.4g} with films down to {found.film.min():.2g}; {advice}"
+        f"cells of {width:.3g}, which are known to suffice for V of at least {least:.2g}. Continuation from "
+        "a thicker film "
+        f"reached V = {near.V:.4g}, Q0 = {near.Q0:.4g} with films of at least {found.film.min():.2g}; "
+        f"{advice}"
     )
 
 
@@ -109,7 +111,7 @@ def stationary_at(equations: ContactEquations, delta: float, tolerance: float = 
         found = follow(equations, found, math.exp(level), tolerance)
         slope = min((found.delta - before) / move, 0.1 * slope)
     raise ConvergenceError(
-        f"delta must be reached by some load, got {found.delta:.6g} instead of {delta:.6g}"
+        f"a load with the approach delta = {delta:.6g} must exist, and the search ended at {found.delta:.6g}"
     )
 
 
@@ -236,7 +238,7 @@ class SmallMotion:
                 return now
             missed = W * now**2 + self.stiffness(now)
         raise ConvergenceError(
-            f"the secant method must find the natural motion near {guess:.4g}, got {now:.4g}"
+            f"the natural motion near {guess:.4g} was not found: the secant method ended at {now:.4g}"
         )
 
 

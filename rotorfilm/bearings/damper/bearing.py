@@ -58,14 +58,14 @@ from .squeeze_laws import (
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class PorousCage:
-    """A porous ring around the film, Darcy's law in it: k(y) = permeability exp(grading y/thickness), y <= 0.
+    """A porous ring around the film with Darcy's law, k(y) = permeability exp(grading y/thickness), y <= 0.
 
     Parameters
     ----------
     thickness : float [m]
         H, radial thickness of the layer.
     permeability : float [m2]
-        A, through the layer, at its face to the film.
+        A, permeability through the layer at the face to the film.
     grading : float [1]
         lambda; positive where the layer is tighter at its back.
     anisotropy : float [1]
@@ -233,7 +233,7 @@ class SqueezeFilmDamper(InertialModel):
         for name in ("seals", "density"):
             given = getattr(self, name)
             if given and (self.cage is not None or self.feed is not None):
-                raise InputError(f"{name} must be left out with a porous cage or a feed, got {given!r}")
+                raise InputError(f"{name} must not be given with a porous cage or a feed, got {given!r}")
         if self.density:
             _ = self.film_inertia
         _ = self.bound_film
@@ -452,8 +452,8 @@ class SqueezeFilmDamper(InertialModel):
         case = self.squeeze_case
         if case.cavitated or case.layer is not None or np.any(case.feed) or np.any(case.ends):
             raise InputError(
-                f"small_motion takes a FullFilm() in a solid cage without feed, got {self!r}: for a ruptured "
-                "film, orbit_coefficients"
+                f"small_motion needs a FullFilm() in a solid cage without feed, got {self!r}: "
+                "orbit_coefficients has those of a ruptured film"
             )
         land = FilmSegment(length=self.length, clearance=self.clearance)
         return SegmentedDamper(
@@ -486,7 +486,7 @@ class SqueezeFilmDamper(InertialModel):
         return position / self.clearance, velocity / self.clearance
 
     def feed_share(self, modes: LayerModes) -> Array:
-        """Return what of the velocity of a feed reaches the film by each group of modes, shape (N,) [1]."""
+        """Return the share of a feed's velocity that reaches the film by each group of modes, (N,) [1]."""
         passed = modes.weight * modes.passage
         if not isinstance(self.feed, RadialFeed):
             return passed
@@ -518,8 +518,8 @@ class SqueezeFilmDamper(InertialModel):
             warn_of_short_seals(self.slenderness, self._end_leak)
         if self.cage is not None and self.cage.thickness > LARGEST_RATIO * self.radius:
             warn_user(
-                f"thickness must not exceed {LARGEST_RATIO} radii of {self.radius!r} m, got "
-                f"{self.cage.thickness!r}: the layer is unrolled to a plane",
+                f"thickness must not exceed {LARGEST_RATIO} of the radius {self.radius!r} m, got "
+                f"{self.cage.thickness!r}: the model takes the porous layer as plane",
             )
 
 

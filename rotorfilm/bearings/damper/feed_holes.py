@@ -42,7 +42,7 @@ class SqueezeMatrices(Readable):
     Attributes
     ----------
     damping : ndarray, shape (2, 2) [N s/m]
-        Rows: force x, y on the rotor, reversed; columns: velocity along x, y.
+        Rows: force x, y on the rotor with the opposite sign; columns: velocity along x, y.
     added_mass : ndarray, shape (2, 2) [kg]
         Added mass in the same arrangement, with columns for the acceleration.
     frequency : float [rad/s]

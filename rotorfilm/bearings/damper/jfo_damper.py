@@ -115,8 +115,9 @@ class DamperSupply:
         pressure = self.supply_pressure - self.cavitation_pressure if kinds or self.submerged else 0.0
         if pressure <= 0.0:
             raise InputError(
-                "a damper must have a supply above the pressure of its cavity, or a film that conserves its "
-                f"oil runs dry: {REMEDY}, got {self!r}"
+                "supply_pressure must be above cavitation_pressure, and a groove, holes or an oil bath must "
+                "supply the oil, or a mass-conserving film runs dry: "
+                f"give {REMEDY}, got {self!r}"
             )
 
     @property
@@ -275,13 +276,14 @@ class JFODamper(MassConserving):
         return self.film.solve(self.film.gap(np.array([eccentricity_ratio, 0.0])), -speed)
 
     def at_place(self, position: Array, velocity: Array, speed: float) -> tuple[ConservedState, Array, float]:
-        """Return the film of a centered circular orbit, the matrix whose columns are its axes, its speed."""
+        """Return the film of a centered circular orbit, a matrix with its axes as columns, and its speed."""
         require_inside(position, self.clearance)
         e, v = float(np.hypot(*position)), float(np.hypot(*velocity))
         if abs(position @ velocity) > CIRCULAR * e * v or (e == 0.0 and v > 0.0):
             raise InputError(
-                "velocity must be 0 or across the position, as on a centered circular orbit: the film "
-                "remembers, and another motion needs its past (simulate, damper_turn), got velocity "
+                "velocity must be 0 or perpendicular to the position, as on a centered circular orbit, "
+                "because the film of another motion depends on its past: take simulate or damper_turn, got "
+                "velocity "
                 f"{velocity.tolist()} at position {position.tolist()}"
             )
         radial = position / e if e > 0.0 else np.array([1.0, 0.0])

@@ -249,7 +249,8 @@ def require_inertia_range(reynolds: float, *, cavitated: bool) -> None:
     if reynolds > far:
         raise InputError(
             f"squeeze Reynolds number must not exceed {far:g} for the inertia of a {kind} film, got "
-            f"{reynolds:.4g}: beyond, its first order is no model, and the film may be turbulent"
+            f"{reynolds:.4g}: the model is of first order in this number, and beyond it the film may be "
+            "turbulent"
         )
     if reynolds > well:
         warn_user(
@@ -263,9 +264,9 @@ def warn_of_length(film: object, slenderness: float, limit: float) -> None:
     if slenderness > limit:
         excess = slenderness**2 / 3.0 / land_share(slenderness, math.inf).real - 1.0
         warn_user(
-            f"length / diameter must not exceed {limit} for {film!r}, got {slenderness:.6g}: the damping of "
-            f"a solid cage is too large by {100.0 * excess:.2g} % in small motion; FiniteMapSqueeze() covers "
-            "it",
+            f"length / diameter must not exceed {limit} for {film!r}, got {slenderness:.6g}: in small motion "
+            f"the damping of a solid cage is too large by {100.0 * excess:.2g} %. FiniteMapSqueeze() has no "
+            "such error",
         )
 
 
@@ -283,6 +284,7 @@ def warn_of_short_seals(slenderness: float, end_leak: float) -> None:
     excess = short / land_share(slenderness, end_leak).real - 1.0
     if excess > NOTABLE_SEALS:
         warn_user(
-            f"seals must leak more, or be those of FullFilm() with FiniteSqueeze(): a short film with them "
-            f"has {100.0 * excess:.2g} % too much damping in small motion, since oil runs around"
+            "seals of a short film must leak more: this film neglects the flow around the circumference, "
+            f"and its damping in small motion is {100.0 * excess:.2g} % too large. FullFilm() with "
+            "FiniteSqueeze() includes that flow"
         )

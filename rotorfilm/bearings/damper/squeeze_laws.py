@@ -156,8 +156,8 @@ def sealed_short(film: SqueezeFilm, case: SqueezeCase) -> SqueezeFilm:
         return film
     if case.end_leak == 0.0:
         raise InputError(
-            "leakage of seals must be positive for a short film, got 0: its oil can only go out, not around; "
-            "FullFilm() with FiniteSqueeze() has both"
+            "leakage of seals must be positive for a short film, got 0: its oil flows only along the axis; "
+            "FullFilm() with FiniteSqueeze() also has the flow around the circumference"
         )
     # c^3/(2 viscosity G_s L), half the circle where the film ruptures
     damping = math.pi * 3.0 / (case.end_leak * case.slenderness)

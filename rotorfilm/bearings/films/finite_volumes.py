@@ -560,7 +560,7 @@ def log_potential(
     found = film.potential(e, np.stack([np.cos(phi), np.sin(phi)]), slopes=slopes)
     J = richardson(*found.value[:2])
     if not np.all(J < 0.0):
-        raise ConvergenceError(f"the film must carry, and does not at eccentricity {e.tolist()}")
+        raise ConvergenceError(f"the film must carry a load, and carries none at eccentricity {e.tolist()}")
     return np.log(-J), found
 
 

@@ -76,8 +76,8 @@ class FeedHole:
         largest = min(length * self.diameter / self.side, 2.0 * radius)
         if self.diameter >= largest:
             raise InputError(
-                f"diameter of a feed hole must be below {largest:.6g} m, that of the bearing or of the "
-                f"circle whose square is as long, got {self.diameter!r}"
+                f"diameter of a feed hole must be below {largest:.6g} m, so that the square of the same area "
+                f"fits into the bearing, got {self.diameter!r}"
             )
 
 

@@ -587,7 +587,7 @@ def beside_speed(kernel: FilmKernel) -> str:
 
 
 def continued(kernel: FilmKernel) -> str:
-    """Return how the force of a film goes on beyond its map, and how far it is off there."""
+    """Return how the force of a film goes on beyond its map, and the error of that."""
     if not kernel.error:
         return "extrapolated there, with an error that is not known"
     where = " where no opening is near" if kernel.openings else ""

@@ -410,8 +410,8 @@ def report_search(status: int) -> None:
         raise MemoryError("no memory for a film")
     if status:
         raise ConvergenceError(
-            "the search for a film that conserves its oil must end: "
-            "there may be no supply, or too thin a film for the cells"
+            "the search for the ruptured zone of a mass-conserving film did not end: the film may have no "
+            "supply, or be too thin for the cells"
         )
 
 
@@ -826,6 +826,6 @@ def warn_of_air(submerged: bool, drawn_in: float, side_flow: float) -> None:
     """Warn where ends in air would draw in air, beside flows in one unit."""
     if not submerged and drawn_in > AIR_SHARE * side_flow:
         warn_user(
-            "submerged must be True for ends that draw in oil: in air they would draw in air, "
+            "submerged must be True for ends that draw in oil: ends in air would draw in air, "
             f"{100.0 * drawn_in / side_flow:.2g} % of the side flow"
         )

@@ -697,9 +697,9 @@ class MassConserving(ConservedAtRest):
         InputError
             If u is not five finite numbers, or dt not finite and not negative.
         FilmContactError
-            If the journal touches the wall; the old state stays good.
+            If the journal touches the wall; the old state stays valid.
         ConvergenceError
-            If the film is not found even in steps halved several times; the old state stays good.
+            If the film is not found even in steps halved several times; the old state stays valid.
         """
         target = self._inside(u, f" at t = {t + dt:.9g} s")
         if dt == 0.0:

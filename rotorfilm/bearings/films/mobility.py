@@ -206,7 +206,7 @@ def require_no_mobility(bearing: Any, user: str) -> None:
     for one in (bearing, getattr(bearing, "film", None)):
         if getattr(one, "mobility", None) is not None:
             raise InputError(
-                f"bearing must have a film without a mobility, which {user} cannot take, got {one!r}"
+                f"the film of the bearing must have mobility=None, because {user} uses none, got {one!r}"
             )
 
 
@@ -215,8 +215,8 @@ def require_thickness_law(mobility: Mobility | None) -> None:
     require_mobility(mobility)
     if mobility is not None and (mobility.drags or mobility.density > 0.0):
         raise InputError(
-            "mobility of a map must be a law of the thickness that leaves the Couette flow as it is; a film "
-            f"on a grid takes others, got {mobility!r}"
+            "mobility of a map must depend on the thickness only and leave the Couette flow unchanged, got "
+            f"{mobility!r}: a film on a grid takes others"
         )
 
 
@@ -233,7 +233,9 @@ def checksum_of(mobility: Mobility | None) -> float:
 def require_same_mobility(told: float, mobility: Mobility | None) -> None:
     """Raise InputError unless this is the mobility that a table has a checksum of."""
     if told != checksum_of(mobility):
-        raise InputError(f"mobility must be that of the table, with checksum {told:.0f}, got {mobility!r}")
+        raise InputError(
+            f"mobility must be the one that the table was made with (checksum {told:.0f}), got {mobility!r}"
+        )
 
 
 GAUSS = np.polynomial.legendre.leggauss(24)
@@ -260,7 +262,10 @@ def per_rate(mobility: Mobility | None, reynolds_scale: float) -> float:
     if mobility is None or mobility.density == 0.0:
         return 0.0
     if not reynolds_scale > 0.0:
-        raise InputError("a film whose mobility has a density must be that of a bearing, and is asked alone")
+        raise InputError(
+            "a film whose mobility has a density must belong to a bearing, got a film alone: its Reynolds "
+            "number is not known"
+        )
     return 2.0 * mobility.density * reynolds_scale
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core.errors import InputError, require_finite, require_kind, require_positive
-from ...core.inputs import quantities
+from ...core.inputs import quantities, require_choice
 from ...core.model import Array
 from .mobility import Mobility
 
@@ -204,8 +204,7 @@ class Turbulence:
 
     def __post_init__(self) -> None:
         require_kind("local", self.local, bool, "True or False")
-        if self.closure not in CLOSURES:
-            raise InputError(f"closure must be one of {', '.join(CLOSURES)}, got {self.closure!r}")
+        require_choice("closure", self.closure, CLOSURES)
         if self.density is not None:
             require_positive("density", self.density)
         if not isinstance(self.band, bool):

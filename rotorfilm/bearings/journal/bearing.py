@@ -382,16 +382,16 @@ def fitted_film(film: FilmLaw, geometry: FilmGeometry) -> FilmLaw:
 
         if film.table is not None:
             raise InputError(
-                "table must be that of the bearing, got a MapTable, which is for no openings; take MapFilm() "
-                "or GroovedMapFilm(table=...)"
+                "table must be that of a bearing with openings, got a MapTable of a plain bore; take "
+                "MapFilm() or GroovedMapFilm(table=...)"
             )
         film = GroovedMapFilm()
     fitted = options(film, FilmOptions).fitted(geometry)
     if fitted is None and not geometry.plain:
         held = [said for name, said in _OPENED.items() if getattr(geometry, name)]
         raise InputError(
-            f"film must represent the bearing's geometry, which {type(film).__name__} cannot: "
-            f"got {', '.join(held)}; ReynoldsFilm and, without supply, MapFilm can"
+            f"film must represent the bearing's geometry, got {type(film).__name__}, which cannot "
+            f"represent {', '.join(held)}; ReynoldsFilm can, and MapFilm can without a supply"
         )
     return film if fitted is None else fitted
 
@@ -481,7 +481,7 @@ def _share(along: float, length: float, lands: float) -> float:
     covered = along - (length - lands)
     if covered <= 0.0:
         raise InputError(
-            "length of an opening must be above the width of the circumferential_groove that it crosses, "
+            "length of an opening must exceed the width of the circumferential_groove that it crosses, "
             f"{length - lands:.6g} m, got {along:.6g} m"
         )
     return covered / lands

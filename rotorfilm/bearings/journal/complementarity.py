@@ -44,7 +44,7 @@ class ComplementarityArc:
     """The ends depend on the direction of the source."""
 
     def shortcoming(self, basis: Basis) -> str:
-        """Return a warning where the constant function is left out: the arc is longer than half a circle."""
+        """Return a warning if the constant function is missing on an arc longer than half a circle."""
         if basis.constant:
             return ""
         return (

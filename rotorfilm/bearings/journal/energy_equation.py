@@ -351,7 +351,7 @@ class FilmProfile:
 
 @dataclass(frozen=True)
 class MeanTemperature(FilmProfile):
-    """A parabola of the temperature across the film, given by its mean; see `FilmProfile`."""
+    """A temperature profile across the film: a parabola with a given mean; see `FilmProfile`."""
 
 
 @quantities
@@ -396,7 +396,7 @@ def _solve(
     if status:
         if status == Status.NO_MEMORY:
             raise MemoryError("no memory for the heat of a film")
-        raise ConvergenceError("the heat of a film must have a solution, and the equations have none")
+        raise ConvergenceError("the energy equation of the film has no solution")
     return answers
 
 

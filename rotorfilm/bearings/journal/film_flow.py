@@ -655,7 +655,7 @@ class FrozenFilm(StaticReaction):
         Parameters
         ----------
         eccentricity, squeeze, speed
-            As of `solve`.
+            As in `solve`.
         lines : ndarray, shape (P, N)
             1 for those of each of P parts between openings, 0 for others.
         """

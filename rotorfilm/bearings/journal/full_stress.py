@@ -83,7 +83,7 @@ def full_stress_forces(
     speed : float [rad/s]
         Of either sign, not 0.
     cells : (int, int)
-        As of `ReynoldsFilm`.
+        As in `ReynoldsFilm`.
 
     Raises
     ------

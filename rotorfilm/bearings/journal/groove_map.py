@@ -539,7 +539,7 @@ def _exponents(center: Array, levels: Array, openings: AlignedOpenings, resoluti
     Parameters
     ----------
     center : ndarray, shape (DIRECTIONS, 3)
-        As of `_centered`.
+        As in `_centered`.
     levels : ndarray, shape (solved, cells_x, count_s)
     """
     cells_x, count_e, count_s = resolution.nodes

@@ -176,7 +176,7 @@ class HeatRounds:
     def _checked(self, position: ArrayLike, speed: float) -> tuple[Array, float]:
         q, omega = require_pair("position", position), require_number("speed", speed)
         if omega == 0.0:
-            raise InputError("speed must not be 0 for a film that shear warms, got 0")
+            raise InputError("speed must not be 0 for a film that its shear warms, got 0")
         self.bearing.require_film(q)
         return q, omega
 
@@ -338,8 +338,8 @@ class HeatedFilm(HeatRounds):
         self._require_heat()
         if hasattr(self.bearing, "on_frozen") and isinstance(self.walls, BushRing):
             raise InputError(
-                "walls must be AdiabaticWalls() or HeldWalls(...) for tilting pads, which are no ring that "
-                f"conducts heat from one to the next, got {self.walls!r}"
+                "walls must be AdiabaticWalls() or HeldWalls(...) for tilting pads, because no ring "
+                f"conducts heat from pad to pad, got {self.walls!r}"
             )
         self.bearing.geometry.require_whole_length("HeatedFilm", "HeatedJFOFilm")
         require_cells(self.cells)
@@ -349,7 +349,7 @@ class HeatedFilm(HeatRounds):
         return replace(self._frozen(np.zeros(2), self._fresh()), frozen_at=None).reaction
 
     def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> Any:
-        """Return the film of the viscosity at a temperature [K], as openings feed it at a position [m]."""
+        """Return the film with the viscosity at a temperature [K], fed by its openings at a position [m]."""
         q = np.asarray(position, dtype=float)
         film = self._frozen(q, np.broadcast_to(temperature, self._fresh().shape), speed)
         return fed_film(film, q, speed, full_gap=self.bearing.cooled[1].full_gap)[0].reaction
@@ -557,7 +557,7 @@ class HeatedJFOFilm(HeatRounds):
         return self._frozen(self._fresh(), np.zeros(2), 0.0)
 
     def frozen(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> FrozenJFOFilm:
-        """Return the film of the viscosity at a temperature [K], and its eddies at a place and a speed."""
+        """Return the film with viscosity and eddy viscosity at a temperature [K], a position and a speed."""
         at = np.broadcast_to(temperature, self._fresh().shape)
         return self._frozen(at, np.asarray(position, dtype=float), speed)
 

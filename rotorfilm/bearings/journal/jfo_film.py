@@ -136,9 +136,9 @@ class JFOFilm(MassConserving):
         The bearing with its supply: short grooves, feed holes, a circumferential groove, or grooves over the
         whole length at ambient pressure. Gaps between pads are full of oil at ambient pressure. Its own film
         law is not used. With an oil and a cooling, `equilibrium` finds the film temperature too. Its
-        turbulence acts on pressure flow and shear: in the cavity with the factors of a full gap, on the part
-        of it that is oil. Each tilting pad stands so that its film has no moment about the pivot. Tilting
-        pads have no steps in time, and with a cavity below ambient pressure all must carry a load.
+        turbulence acts on pressure flow and shear. In the cavity it acts on the part of the gap that is oil,
+        with the factors of a full gap. Each tilting pad stands so that its film has no moment about the pivot.
+        Tilting pads have no steps in time, and with a cavity below ambient pressure all must carry a load.
     cells : tuple of int
         Approximate numbers of lines around the film and of cells along half the length; even.
     supply_flow : float or None [m3/s]
@@ -293,7 +293,7 @@ class JFOFilm(MassConserving):
 
     @arguments
     def slow_coefficients(self, position: ArrayLike, speed: float) -> ReducedCoefficients:
-        """Return K and C in motions slow against the time that oil takes to cross the cavity: K(0), dK/ds(0).
+        """Return K and C for motion that is slow compared with the flow through the cavity: K(0), dK/ds(0).
 
         Neither matrix is symmetric, and C may have a negative diagonal entry.
 
@@ -593,12 +593,12 @@ class JFOState(StaticFilm, Drawable):
         Net oil flow out of each opening, in the order of `FilmGeometry.openings`; a circumferential groove is
         the last.
     friction_torque : float [N m]
-        About +z, that keeps the journal turning: shear of the film and of the oil in the cavity, which forms
-        strips across the gap; without the openings.
+        Torque about +z that keeps the journal turning, by the shear of the film and of the oil in the cavity,
+        which forms strips across the gap; without the openings.
     power_loss : float [W]
         Power of the shaft that becomes heat: torque times speed.
     mass_defect : float [1]
-        Oil that cells make or lose, over what enters the film: roundoff.
+        Error of the oil balance of the cells, relative to the oil that enters the film: roundoff.
     solutions : int
         Linear systems that were solved on these cells.
     newton_steps : int
@@ -656,8 +656,7 @@ def oil_supply(
     end = -cavitation_pressure / bearing.pressure_scale
     if not (openings or geometry.circumferential or (submerged and end > 0.0)):
         raise InputError(
-            "bearing must have a supply, without which a film that conserves its oil runs dry: "
-            f"{REMEDY}, got none"
+            f"bearing must have an oil supply, or a mass-conserving film runs dry: give {REMEDY}, got none"
         )
     _require_no_open_groove(bearing, supply_flow)
     _require_no_open_gap(bearing)
@@ -678,7 +677,7 @@ def _require_no_open_groove(bearing: Any, supply_flow: float | None) -> None:
     """Raise InputError for a groove open at both ends of the bearing that is to have a pressure."""
     if bearing.geometry.grooves and (supply_pressure(bearing) > 0.0 or supply_flow is not None):
         raise InputError(
-            "grooves with a supply must end within the bearing, or their flow has no limit: give them a "
+            "grooves with a supply must end within the bearing, or their flow is unlimited: give them a "
             f"length, as Groove(center=..., width=..., length={0.8 * bearing.length:g}), "
             f"got {bearing.geometry.grooves[0]!r}"
         )
@@ -781,7 +780,7 @@ def rupture_error(bearing: Any, position: ArrayLike, speed: float) -> RuptureErr
     )
     size = float(np.hypot(*conserved[:2]))
     if size == 0.0:
-        raise InputError(f"position must make a force, got {place!r}, where there is none")
+        raise InputError(f"position must be one where the film has a force, got {place!r}, where it has none")
     return RuptureError(
         force_error=float(np.hypot(*(reynolds - conserved)[:2])) / size,
         side_flow_error=float(reynolds[2] / conserved[2]) - 1.0,

@@ -132,26 +132,26 @@ class TiltedJournal:
 
 
 class TiltEstimate(NamedTuple):
-    """What a tilt does to a film, and how far a level is off.
+    """The effect of a tilt on a film, and the error of a tilt level.
 
-    The estimates come from the part of the force that the tilt makes. Of a plain bearing at rest they hold
-    within a factor of two in nine of ten states, those of a moment in 17 of 20. The error of the second-order
-    force is its term of fourth order. The map gives it from the change of the force along the tilt. Near the
-    center they come from the shifts of end and middle, and rather say too much: there the end shifts 1.5
-    times as far as the middle, or more.
+    The estimates follow from the part of the force that the tilt causes. For a plain bearing at rest they
+    hold within a factor of two in nine of ten states, and those of the moment in 17 of 20. The error of the
+    second-order force is its term of fourth order, which the map gives from the change of the force along the
+    tilt. Near the center, where an end shifts at least 1.5 times as far as the middle, the estimates follow
+    from these two shifts and are rather too large.
 
     Attributes
     ----------
     end_shift : float [1]
-        |tau|: what an end of the journal lies beside its middle, in clearances.
+        |tau|: displacement of an end of the journal relative to its middle, in clearances.
     share : float [1]
         Part of the aligned least film that the tilt takes.
     correction : float [1]
-        Part of the force that the tilt makes: the error of a force without it.
+        Part of the force that the tilt causes: the error of a force without the tilt.
     force_error, moment_error : float [1]
-        Of the level, relative to force and moment.
+        Errors of the level, relative to force and moment.
     stiffness_error : float [1]
-        Of an aligned bearing, relative to its largest stiffness.
+        Error of the aligned stiffness, relative to its largest entry.
     """
 
     end_shift: float
@@ -229,7 +229,7 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
     Parameters
     ----------
     bearing : JournalBearing, LobedBearing or PressureDamBearing
-        With its temperature stated and no circumferential groove. `FULL` takes a JournalBearing with a
+        Bearing at a given temperature, without a circumferential groove. `FULL` takes a JournalBearing with a
         `ReynoldsFilm` or an `ExtrapolatedFilm` whose start, if it has one, does not turn with the journal,
         and a LobedBearing with a `PadGridFilm`. `SECOND_ORDER` takes a plain JournalBearing of laminar oil
         with a film that ruptures. The other levels take every film in compiled code.
@@ -244,12 +244,12 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
     bush_tilt : (float, float) [rad]
         Rotation of the bush about x and y: positions of the journal are relative to the line of the shaft.
     tilt_map : TiltMapTable, optional
-        The map of `SECOND_ORDER`, where it is there already.
+        An existing map of `SECOND_ORDER`; by default it is made on first use.
 
     Raises
     ------
     InputError
-        If the bearing is of another kind, or its film is none of the level.
+        If the bearing is of another kind, or its film does not suit the level.
 
     Examples
     --------
@@ -456,9 +456,10 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
         at = state.tolist()
         if status == Status.OUTSIDE:
             warn_user(
-                "a tilt should at most take 60 % of the aligned least film and drive it 1.5 times as much as "
-                f"the displacement, within the maps of the film, got {at}: force and moment may be wrong by "
-                "their own size. TiltLevel.FULL has no such limit",
+                "the tilt should reduce the least film by at most 60 %, change the film at most 1.5 times "
+                "as fast as the displacement does, and stay within the maps of the film, "
+                f"got {at}. The error of force and moment may be as large as they are. TiltLevel.FULL has no "
+                "such limit",
                 key=("second-order tilt",),
             )
             return
@@ -473,9 +474,9 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
         raise InputError(f"position, velocity and speed must not overflow, got {at}")
 
     def native(self) -> NativeSpec | None:
-        """Return the kernel of the C library that is this bearing; None of the full film, and of pads.
+        """Return the kernel of the C library that is this bearing; None for the full film and for pads.
 
-        Nor has a bearing with another film than a map, and one whose bush is misaligned.
+        A bearing whose film is not a map, or whose bush is misaligned, has no kernel either.
         """
         inner = self.bearing.native() if isinstance(self.bearing, JournalBearing) else None
         if self.level is TiltLevel.FULL or inner is None or inner.kernel != "journal" or np.any(self.bush):
@@ -493,12 +494,12 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
         return replace(self, bearing=inner, tilt_map=own)
 
     def estimate(self, position: ArrayLike, speed: float) -> TiltEstimate:
-        """Return what the tilt does to the film of a journal at rest, and how far this level is off.
+        """Return the effect of the tilt on the film of a journal at rest, and the error of this level.
 
-        Without a map of tilts, as with another level and no `tilt_map`, the correction is the usual one of
-        plain bearings under a load, 0.57 times the square of the share of the film. Where the end shifts
-        further than the middle, r times, it is 0.22 r^2/(r^2 + 12) at least, and both from r = 1.5 on. At
-        speed 0 it is that of a slow rotation.
+        Without a map of tilts the correction is the usual one of plain bearings under a load: 0.57 times the
+        square of the share of the film that the tilt takes. If an end shifts r times as far as the middle,
+        the correction is at least 0.22 r^2/(r^2 + 12); beyond r = 1.5 it is the sum of both. At speed 0 it is
+        that of a slow rotation.
 
         Parameters
         ----------
@@ -508,7 +509,7 @@ class MomentCarryingJournal(TiltedJournal, StaticReaction):
         Raises
         ------
         InputError
-            If the position has another shape, or one of both is not finite.
+            If the position has another shape, or an argument is not finite.
         FilmContactError
             If the journal touches.
         """

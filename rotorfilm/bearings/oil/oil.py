@@ -489,8 +489,8 @@ def warn_beyond_law(oil: Oil, temperature: ArrayLike) -> None:
     if beyond.size:
         worst = float(beyond[np.argmax(np.abs(beyond - 0.5 * (coldest + hottest)))])
         warn_user(
-            f"the viscosity of the oil holds from {coldest - CELSIUS:.4g} to {hottest - CELSIUS:.4g} degC, "
-            f"and is taken at {worst - CELSIUS:.4g} degC"
+            f"the viscosity of the oil is valid from {coldest - CELSIUS:.4g} to {hottest - CELSIUS:.4g} "
+            f"degC, and is used at {worst - CELSIUS:.4g} degC"
         )
 
 
@@ -520,7 +520,8 @@ def require_absolute(name: str, temperature: float) -> None:
     """Raise InputError unless a temperature [K] is one that an oil may have."""
     if require_number(name, temperature) < COLDEST_OIL:
         raise InputError(
-            f"{name} must be at least {COLDEST_OIL:g} K, got {temperature!r}: '{temperature:g} degC'?"
+            f"{name} must be at least {COLDEST_OIL:g} K, got {temperature:g} K: a number is in K, and "
+            f"'{temperature:g} degC' is in degC"
         )
 
 
@@ -687,8 +688,9 @@ class LaminarFilm(FilmUnits):
         if share > MOST:
             warn_user(
                 f"load {math.hypot(*load):.6g} N makes a mean pressure of {share * BULK_MODULUS:.3g} Pa over "
-                f"2 radius length, {share:.0%} of the bulk modulus of a mineral oil: a film of one density "
-                "and viscosity does not hold there"
+                f"length times diameter, {share:.0%} of the bulk modulus of a mineral oil: a film with "
+                "constant density "
+                "and viscosity is not valid there"
             )
 
     def warn_of_flow(

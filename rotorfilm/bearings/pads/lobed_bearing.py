@@ -19,7 +19,7 @@ from ...core.errors import (
     require_tuple,
     require_vector,
 )
-from ...core.inputs import arguments, quantities
+from ...core.inputs import arguments, quantities, require_choice
 from ...core.model import Array
 from ...core.results import BearingLosses
 from ...native import JournalKernel, Status
@@ -151,8 +151,7 @@ def lobe_set(
     >>> len(lobe_set("three_lobe", preload=0.3))
     3
     """
-    if name not in SETS:
-        raise InputError(f"name of a set of lobes must be one of {sorted(SETS)}, got {name!r}")
+    require_choice("name of a set of lobes", name, sorted(SETS))
     number, middle, usual_extent, usual_offset = SETS[name]
     arc = usual_extent if extent is None else extent
     share = usual_offset if offset is None else offset

@@ -358,7 +358,7 @@ def collected_losses(
     flows : (ndarray, ndarray), shape (pads, n) [1/s]
         Oil that enters the film of each pad, and what comes to the opening behind it, in units of c_p R L.
     state
-        As of `losses_of_pads`.
+        As in `losses_of_pads`.
     """
     position, velocity, speed = state
     shape, omega = speed.shape, speed.ravel()
@@ -443,7 +443,7 @@ def heat_slopes_of_pads(
     Parameters
     ----------
     bearing, film, pads, state
-        As of `losses_of_pads`, with slopes, at one state.
+        As in `losses_of_pads`, with slopes, at one state.
     cooling : Cooling
         Its carry-over, and whether the gap is full.
 

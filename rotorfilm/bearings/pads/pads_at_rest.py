@@ -104,11 +104,14 @@ def report_pads(bearing: Any, status: int, pad: int, position: Array) -> None:
     if status == Status.AT_WALL:
         raise FilmContactError(f"journal and pads must have a film everywhere, and touch at {where}")
     if status == Status.UNDEFINED:
-        raise UndefinedDerivativeError(f"a film without source has no derivative, as that of {where}")
+        raise UndefinedDerivativeError(
+            "the film of each pad must be driven by rotation or velocity to have a derivative, and is not "
+            f"at {where}"
+        )
     if status == Status.NO_MEMORY:
         raise MemoryError("no memory for a film")
     if status == Status.STUCK:
-        raise ConvergenceError(f"the tilt was not found of {where}")
+        raise ConvergenceError(f"the equilibrium tilt was not found for {where}")
     raise InputError(f"states and inputs must be finite and not overflow, at {where}")
 
 

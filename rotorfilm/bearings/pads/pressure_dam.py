@@ -48,7 +48,7 @@ class Recess:
     Parameters
     ----------
     depth : float [m]
-        Below the pad's surface; 0 is none.
+        Depth below the pad's surface; 0 for no recess.
     end : float [rad]
         Angle in the bearing frame of its edge on the +theta side. This is the step for positive rotation.
     share : float [1]
@@ -284,7 +284,7 @@ class PressureDamBearing(PadBearing, KernelReaction):
         return DamKernel(self.rows, [self.radius, self.length, self.clearance, 1.0], False)
 
     def require_film(self, position: Array) -> None:
-        """Raise FilmContactError, with the pad, unless the journal at position (2, ...) [m] touches none.
+        """Raise FilmContactError, which names the pad, if a journal at positions (2, ...) [m] touches one.
 
         Inside the circle of the assembled clearance the journal touches no pad.
         """

@@ -184,7 +184,7 @@ class TiltingPadBearing(Called, PadBearing):
         return np.asarray(self.bore_clearance * self._yielding - along.max(axis=0))
 
     def require_film(self, position: Array) -> None:
-        """Raise FilmContactError, with the pad, where no tilt leaves a film to a journal at (2,) [m]."""
+        """Raise FilmContactError, which names the pad, if a journal at (2,) [m] touches it at any tilt."""
         if not self.minimum_film(position) > 0.0:
             along = directions(self.pivots)[:, :, 0] @ position
             report_pads(self, Status.AT_WALL, int(np.argmax(along)), position)

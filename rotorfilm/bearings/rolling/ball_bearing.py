@@ -205,8 +205,8 @@ class BallBearing(BallElement):
         room = self.pitch_diameter * math.sin(math.pi / self.balls)
         if self.ball_diameter > room:
             raise InputError(
-                f"balls must find room on the pitch circle, which leaves {room:.4g} m for each, "
-                f"got {self.balls} balls of {self.ball_diameter!r} m"
+                f"balls must fit on the pitch circle, which has {room:.4g} m for each, got {self.balls} "
+                f"balls of {self.ball_diameter!r} m"
             )
         for name in ("inner_conformity", "outer_conformity"):
             if not 0.5 < require_number(name, getattr(self, name)) < 0.75:
@@ -224,8 +224,8 @@ class BallBearing(BallElement):
         films = require_finite("films", self.films)
         if films.shape != (2,) or not (np.all(films >= 0.0) and np.all(films < 0.5 * np.array(self.reaches))):
             raise InputError(
-                f"films must be two thicknesses far below the distances of the center of a ball from those "
-                f"of the grooves, {self.reaches!r} m, got {self.films!r}"
+                "films must be two thicknesses far below the distances between ball center and groove "
+                f"centers, {self.reaches!r} m, got {self.films!r}"
             )
 
     def _require_one_of_both(self) -> None:
@@ -505,7 +505,7 @@ def face_to_face(
     Parameters
     ----------
     bearing, distance, preload, spacer_offset
-        As of `back_to_back`.
+        As in `back_to_back`.
     """
     opposite = back_to_back(bearing, distance=distance, preload=preload, spacer_offset=spacer_offset)
     return replace(opposite, directions=(-1, 1))

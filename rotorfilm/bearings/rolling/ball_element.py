@@ -163,14 +163,15 @@ class BallElement(KernelReaction, ABC):
         residual = float(np.linalg.norm(at.wrench + load)) / size if size else 0.0
         if not residual <= MOST_LEFT:
             raise EquilibriumError(
-                f"load must stand out from roundoff of the forces of balls, got {load.tolist()} (N, N m) at "
-                f"{speed!r} rad/s with an imbalance of {residual:.3g} of it"
+                f"load must exceed the round-off of the ball forces, got {load.tolist()} (N, N m) at "
+                f"{speed!r} rad/s, of which {residual:.3g} is unbalanced"
             )
         balls = self._loads(at)
         if self.separates and bool(np.any(balls.outer_angle[balls.inner_load > 0.0] < 0.0)):
             raise EquilibriumError(
-                f"load must press the balls on the shoulders of their rings, got {load.tolist()} (N, N m), "
-                f"under which the contact angles reach {balls.outer_angle.min():.3g} rad"
+                f"load must press the balls against the shoulders of their rings, got {load.tolist()} (N, N "
+                "m), "
+                f"at which the contact angles reach {balls.outer_angle.min():.3g} rad"
             )
         return BallEquilibrium(
             displacement=found.motion,
@@ -242,7 +243,10 @@ class BallElement(KernelReaction, ABC):
             raise InputError(f"displacement and speed must be finite and not overflow, got {where}")
         load, traction = float(at.each["load"].max()), float(at.each["traction"].max())
         if load > self.largest_load:
-            warn_user(f"a ball carries {load:.4g} N, beyond {self.largest_load:.4g} N or 4200 MPa, {where}")
+            warn_user(
+                f"the load of a ball should be at most {self.largest_load:.4g} N, at which the pressure is "
+                f"4200 MPa, got {load:.4g} N, {where}"
+            )
         most = self.running[0].most_traction
         if traction > most:
             warn_user(

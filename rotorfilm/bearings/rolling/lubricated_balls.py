@@ -270,7 +270,7 @@ def ball_films(
     Parameters
     ----------
     bearing, load, viscosity, pressure_coefficient
-        As of `race_films`; the films change little with the load.
+        As in `race_films`; the films change little with the load.
     speed : float [rad/s]
         Angular speed of the inner ring.
 
@@ -312,7 +312,7 @@ def film_parameter(
     balls : BallLoads
         Balls under load; for a pair those of both rows.
     speed, viscosity, pressure_coefficient
-        As of `ball_films`.
+        As in `ball_films`.
     roughness : float [m]
         Combined roughness of ball and race, sqrt(Rq_1^2 + Rq_2^2).
 
@@ -696,11 +696,13 @@ def films_at(
     load = float(np.max(rest.balls.inner_load))
     if not load > 0.0 or require_number("speed", rest.speed) == 0.0:
         raise InputError(
-            f"rest must have loaded balls and turn, for the films to be there, got a largest load of "
-            f"{load!r} N at {rest.speed!r} rad/s"
+            "rest must be at a speed other than 0 and have loaded balls, because only these have films, got "
+            f"a largest load of {load!r} N at {rest.speed!r} rad/s"
         )
     if len(rest.balls.inner_load) != int(bearing.rows[:, ROW.index("count")].sum()):
-        raise InputError(f"rest must be of the bearing, got one of {len(rest.balls.inner_load)} balls")
+        raise InputError(
+            f"rest must be that of this bearing, got one with {len(rest.balls.inner_load)} balls"
+        )
     return race_films(
         single,
         load=load,

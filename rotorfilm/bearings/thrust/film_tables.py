@@ -124,8 +124,8 @@ def require_tabulable(pads: Any) -> None:
         return
     if not pads.deepest:
         raise InputError(
-            "tabulated must be False for plane pads, whose film has no depth to be compared with, "
-            f"got {pads.tabulated!r} with a depth of {pads.deepest!r} m"
+            "tabulated must be False for plane pads, which have no step, taper or crown to scale the film "
+            f"with, got {pads.tabulated!r} with a depth of {pads.deepest!r} m"
         )
     if pads.pads < FEWEST:
         raise InputError(f"tabulated must be False for fewer than {FEWEST} pads, got {pads.pads!r}")

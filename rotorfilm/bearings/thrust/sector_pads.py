@@ -212,9 +212,9 @@ class ThrustLosses(Readable):
     friction_torque : float [N m]
         Friction torque that keeps the collar turning, of the sign of the speed.
     inflow, outflow : float [m3/s]
-        Through the edges of the pads that the oil meets first, and last.
+        Flow in through the leading edges of the pads, and out through the trailing edges.
     side_flow : float [m3/s]
-        Out at the inner and the outer radius.
+        Flow out at the inner and the outer radius together.
     inner_flow, outer_flow : float [m3/s]
         Its parts.
     highest_pressure : float [Pa]

@@ -44,7 +44,7 @@ class TiltingThrustBearing(SectorPads):
     s_t + A_r s_r, with s_t along the rotation, s_r outward from the pivot, and h_p as for a fixed pad. Pads
     have no mass: their rates follow from the balance of moments. Under a collar at rest the ratios A_t/h_p
     and A_r/h_p of flat pads depend on the shape alone, and the force is proportional to viscosity
-    speed/h_p^2. Coefficients name their frequency: tilts follow slow motion, and lag behind fast one.
+    speed/h_p^2. Coefficients name their frequency: the tilts follow slow motion and lag behind fast motion.
 
     Signs are those of a `ThrustBearing`, dimensions and lubricant those of all `SectorPads`.
 
@@ -86,8 +86,9 @@ class TiltingThrustBearing(SectorPads):
             require_tabulable(self)
         if not self.crown and abs(self.pivot_arc - 0.5) < _MIDDLE:
             raise InputError(
-                "pivot_arc must not be 0.5, in the middle of flat rigid pads with oil of one viscosity: they "
-                f"carry nothing there, got {self.pivot_arc!r}: give a crown, as pads bend, or another place"
+                "pivot_arc must not be 0.5 for flat rigid pads with constant viscosity, which carry no load "
+                f"on a pivot in the middle, got {self.pivot_arc!r}: give a crown, as that of pads that bend, "
+                "or move the pivot"
             )
 
     @property
@@ -172,7 +173,7 @@ class TiltingThrustBearing(SectorPads):
                 return found
         if self._turns_away(float(u[6])):
             raise EquilibriumError(
-                f"{self._sense}, got {float(u[6])!r} rad/s: the other way they do not rest"
+                f"{self._sense}, got {float(u[6])!r} rad/s: in the other direction they have no equilibrium"
             )
         if not self.crown:
             raise EquilibriumError(self._unbalanced(u[:3]))
@@ -193,7 +194,10 @@ class TiltingThrustBearing(SectorPads):
         """Warn where flat pads turn away from their pivots, or the oil is beyond its law; see `core.port`."""
         super().warn_of_flow(speed, temperature, hottest)
         if self._turns_away(speed):
-            warn_user(f"{self._sense}, got {speed!r} rad/s: the other way they carry a few percent")
+            warn_user(
+                f"{self._sense}, got {speed!r} rad/s: in the other direction they carry a few percent of the "
+                "load"
+            )
 
     def _turns_away(self, speed: float) -> bool:
         return not self.crown and speed * self.turning < 0.0

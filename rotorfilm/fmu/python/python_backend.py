@@ -315,9 +315,12 @@ def _require_rebuilt(data: Any) -> None:
         with warnings.catch_warnings(action="ignore"):
             again = encode(decode(data, {}))
     except Exception as error:
-        raise FmuError(f"model must follow from its fields alone, got {error!r}") from error
+        raise FmuError(
+            "model must be one that its fields alone determine, and building it again from them failed: "
+            f"{error!r}"
+        ) from error
     if again != data:
-        raise FmuError(f"model must keep the fields it is built by, got {again!r} from {data!r}")
+        raise FmuError(f"model must keep the fields that it is built with, got {again!r} from {data!r}")
 
 
 def _resources(

@@ -118,8 +118,8 @@ static int require_heat(const rf_worn_bush *m, const double *wear, rf_message *w
     if (!worn || m->given || !rf_worn_melts(m) || !(m->profile.angle > 0.0) || covered(m) >= 1.0 - COVERED_TO)
         return RF_OK;
     return rf_say(why, RF_OUTSIDE,
-                  "friction must cover the losses of a worn contact at its melting point, got about %.0f %% of "
-                  "them: it cools; parameter temperature holds it colder",
+                  "friction must cover the heat losses of a worn contact at its melting point, got about "
+                  "%.0f %% of them, so the contact cools: parameter temperature prescribes a lower temperature",
                   100.0 * covered(m));
 }
 

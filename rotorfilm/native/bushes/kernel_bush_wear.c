@@ -85,8 +85,8 @@ static int output(const void *kernel, const rf_point *at, double *y, rf_message 
     y[6] = rf_bush_sliding(b, &c.at, &d) * b->grip / rf_bush_losses(b, c.at.a, c.at.sin, b->is.melting);
     if (d.moment > 0.0 && c.temperature < (1.0 - COOLED) * b->is.melting)
         return rf_say(why, RF_OUTSIDE,
-                      "load and speed must keep a worn contact at its melting point, got %.4g K: it is taken to "
-                      "end on unworn liner, too wide and too cold",
+                      "load and speed must keep a worn contact at its melting point, got %.4g K: the model "
+                      "takes it to end on unworn liner, and makes it too wide and too cold",
                       c.temperature);
     return RF_OK;
 }

@@ -175,8 +175,8 @@ static int meet(meeting *self, const double *offset, double dt, double time, con
     for (int round = 0; round < MOST_ROUNDS && status == RF_OK; ++round) {
         status = try_films(self, offset, dt, blocks, round > 0 ? self->tried : blocks, done + 2);
         if (status != RF_OK)
-            return rf_say(why, status, "the search for a film that conserves its oil must end: "
-                          "there may be no supply, or too thin a film for the cells");
+            return rf_say(why, status, "the search for the ruptured zone of a mass-conserving film did not end: "
+                          "the film may have no supply, or be too thin for the cells");
         set_moved(self);
         status = go_within(self, offset, time, &size, why);
         ++done[1];

@@ -72,8 +72,8 @@ static int judged(int status, double t, const double *motion, rf_message *why)
     if (status == RF_MEMORY)
         return rf_say(why, status, "no memory for a film");
     return rf_say(why, status,
-                  "the search for a film that conserves its oil must end, and did not at t = %.9g s, x = %.9g, y = %.9g m: "
-                  "there may be no supply, or too thin a film for the cells",
+                  "the search for the ruptured zone of a mass-conserving film did not end at t = %.9g s, x = %.9g, "
+                  "y = %.9g m: the film may have no supply, or be too thin for the cells",
                   t, motion[0], motion[1]);
 }
 

@@ -102,8 +102,8 @@ static int respond(const model *self, const double *u, double *y, double *D, rf_
         return rf_say(why, RF_AT_WALL, "the ends of the journal must stay inside the clearance %.9g m, got %.9g m "
                       "(x = %.9g, y = %.9g m, tilts %.9g, %.9g rad)", c, ends, u[0], u[1], u[2], u[3]);
     if (status == RF_OUTSIDE)
-        return rf_say(why, status, "the tilt must at most take 60 %% of the aligned least film and drive it 1.5 times as much as "
-                      "the displacement, within the maps of the film, got x = %.9g, y = %.9g m and tilts %.9g, %.9g rad; "
+        return rf_say(why, status, "the tilt must reduce the least film by at most 60 %%, change the film at most 1.5 times as "
+                      "fast as the displacement does, and stay within the maps of the film, got x = %.9g, y = %.9g m and tilts %.9g, %.9g rad; "
                       "the force is continued", u[0], u[1], u[2], u[3]);
     return rf_explain_journal(&self->journal, status, own, why);
 }

@@ -358,10 +358,10 @@ def test_a_run_goes_on_under_its_own_load_only(coarse, resting):
     part = replace(whole, complete=False)
     # The same until then: what comes later is not known of a function.
     assert coarse.simulate(part, **asked, load=lambda t: 1.0 + 0.3 * t).complete
-    with pytest.raises(InputError, match=r"driven by 1\.00\d+ at t = 0\.0\d+, got 1\.00\d+$"):
+    with pytest.raises(InputError, match=r"that it began with, 1\.00\d+ at t = 0\.0\d+, got 1\.00\d+$"):
         coarse.simulate(part, **asked, load=lambda t: 1.0 + 0.4 * t)
     other = {**asked, "snapshots": (*asked["snapshots"], 0.49)}
-    with pytest.raises(InputError, match=r"as it was begun, by .*got") as caught:
+    with pytest.raises(InputError, match=r"with the arguments that it began with, .*got") as caught:
         coarse.simulate(part, **other, load=lambda t: 1.0 + 0.3 * t)
     assert len(str(caught.value)) < 400
 

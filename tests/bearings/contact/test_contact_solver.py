@@ -128,11 +128,12 @@ def test_thin_film_is_reached_through_coarser_grids():
 
 def test_film_too_thin_for_its_cells_is_refused_with_the_way_it_came():
     with pytest.raises(
-        ConvergenceError, match=r"at V = 0.002, Q0 = 20, got cells of 0.125, known to hold V "
+        ConvergenceError,
+        match=r"at V = 0.002, Q0 = 20, got cells of 0.125, which are known to suffice for V ",
     ) as told:
         contact(32, V=0.002, Q0=20.0).stationary()
     words = str(told.value)
-    came = float(re.search(r"came to V = ([\d.]+), Q0", words)[1])
+    came = float(re.search(r"reached V = ([\d.]+), Q0", words)[1])
     assert 0.002 < came < 0.02
     advised = int(re.search(r"\((\d+), \d+\) cells", words)[1])
     assert thinnest_speed(20.0, 4.0 / advised) < 0.002

@@ -50,7 +50,7 @@ def test_short_film_between_leaking_seals(extent):
     # The finite film, and a quadrature of the end pressure -h_t L/(2 G_s) over the film that is filled.
     shape = {"radius": 0.5, "length": 0.02, "clearance": 1e-4, "viscosity": 0.01, "extent": extent}
     seals = rf.EndSeal(leakage=2e-10)
-    with pytest.warns(ValidityWarning, match="short film with them has"):
+    with pytest.warns(ValidityWarning, match="seals of a short film must leak more"):
         rf.SqueezeFilmDamper(**shape, seals=rf.EndSeal(leakage=1e-13))
     found = rf.SqueezeFilmDamper(**shape, seals=seals)
     q, v = np.array([4e-5, 2e-5]), np.array([0.01, 0.02])

@@ -104,7 +104,7 @@ def test_one_hole_between_tight_seals_moves_no_oil():
         ({"frequency": -1.0}, "frequency must be finite and not negative"),
         (
             {"damper": rf.SqueezeFilmDamper(radius=R, length=0.2 * R, clearance=C, viscosity=MU)},
-            "small_motion takes",
+            "small_motion needs",
         ),
     ],
 )

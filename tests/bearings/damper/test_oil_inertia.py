@@ -200,7 +200,7 @@ def test_bad_states_of_the_mass_are_named():
         full.mass([2e-4, 0.0])
     with pytest.raises(InputError, match="position"):
         full.mass([np.nan, 0.0])
-    with pytest.raises(InputError, match="small_motion takes a FullFilm"):
+    with pytest.raises(InputError, match="small_motion needs a FullFilm"):
         ruptured.small_motion(100.0)
 
 

@@ -86,14 +86,14 @@ def test_the_error_beyond_an_eased_map_is_not_known():
 
 def test_a_table_of_another_mobility_is_refused():
     film = both("grooved", TOY)[0].portable().film
-    with pytest.raises(InputError, match="mobility must be that of the table"):
+    with pytest.raises(InputError, match="mobility must be the one that the table was made with"):
         replace(film, mobility=None)
     pads = both("lobed", TOY)[0].portable()
-    with pytest.raises(InputError, match="mobility must be that of the table"):
+    with pytest.raises(InputError, match="mobility must be the one that the table was made with"):
         replace(pads, film=replace(pads.film, mobility=None))
     drags = mobility_of(lambda H: (1.0, 1.0, 1.0 + H, 1.0), cells=8)
     for other in (drags, replace(TOY, density=800.0)):
-        with pytest.raises(InputError, match="mobility of a map must be a law of the thickness"):
+        with pytest.raises(InputError, match="mobility of a map must depend on the thickness only"):
             PadMapFilm(mobility=other)
-        with pytest.raises(InputError, match="mobility of a map must be a law of the thickness"):
+        with pytest.raises(InputError, match="mobility of a map must depend on the thickness only"):
             GroovedMapFilm(mobility=other, reynolds_cells=0)

@@ -104,7 +104,9 @@ def test_a_map_knows_its_mobility_and_its_range(bearings):
     assert table.bound(0.3, slopes=False) < 0.05
     with pytest.warns(ValidityWarning, match="m at this Reynolds number are beyond the map"):
         own.force(PLACE, VELOCITY, 3000.0)
-    with pytest.raises(InputError, match=r"mobility must be that of the table, .* got None"):
+    with pytest.raises(
+        InputError, match=r"mobility must be the one that the table was made with .* got None"
+    ):
         replace(own, turbulence=None).force(PLACE, VELOCITY, SPEED)
     tilting, _ = bearings["tilting"]
     with pytest.warns(ValidityWarning, match=r"pad 1 .* at this Reynolds number are beyond the map"):
@@ -112,7 +114,7 @@ def test_a_map_knows_its_mobility_and_its_range(bearings):
     with pytest.warns(ValidityWarning, match=r"pad 1 .* at this Reynolds number are beyond the map"):
         tilting.derivative(0.0, tilting.initial_state, [*PLACE, 0.0, 0.0, 3000.0])
     other = replace(own, turbulence=replace(FREE, closure="hirs"))
-    with pytest.raises(InputError, match="mobility must be that of the table"):
+    with pytest.raises(InputError, match="mobility must be the one that the table was made with"):
         other.force(PLACE, VELOCITY, SPEED)
     with pytest.raises(InputError, match="reynolds_cells must be 0"):
         PadMapFilm(reynolds_cells=3)

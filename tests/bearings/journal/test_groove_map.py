@@ -290,7 +290,7 @@ def test_default_film_takes_openings(two_grooves):
     assert bearing.film == MapFilm()
     assert bearing.fitted_film == GroovedMapFilm(geometry=geometry)
     assert JournalBearing(**DIMENSIONS).fitted_film == MapFilm()
-    with pytest.raises(InputError, match=r"table must be that of the bearing, got a MapTable"):
+    with pytest.raises(InputError, match=r"table must be that of a bearing with openings, got a MapTable"):
         JournalBearing(**DIMENSIONS, grooves=geometry.grooves, film=MapFilm(packaged_table()))
     with pytest.raises(InputError, match=r"table must be that of the bearing, got one with openings"):
         JournalBearing(**DIMENSIONS, film=GroovedMapFilm(table=table))

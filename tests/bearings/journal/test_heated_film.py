@@ -261,7 +261,7 @@ def test_a_large_plain_bearing_comes_to_rest_with_layers():
 
 def test_a_film_hotter_than_its_viscosity_law_is_said():
     oil = Oil.thinning_at("30 mPa s", "20 degC", "0.01 1/K")
-    with pytest.warns(ValidityWarning, match="oil holds from -30 to 70 degC, and is taken at"):
+    with pytest.warns(ValidityWarning, match="oil is valid from -30 to 70 degC, and is used at"):
         rests(bearing_of(oil), 5000.0, OMEGA, cells=CELLS)
 
 

@@ -103,7 +103,7 @@ def test_the_table_knows_its_errors_and_its_mobility(bearing):
     assert table.bound(0.4, slopes=False) < 5e-3
     assert MobileMapTable.from_bytes(table.to_bytes()) == table
     other = replace(TURBULENT, scale=31.0)
-    with pytest.raises(InputError, match="mobility must be that of the table"):
+    with pytest.raises(InputError, match="mobility must be the one that the table was made with"):
         replace(bearing.film, mobility=other)
 
 

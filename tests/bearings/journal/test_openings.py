@@ -90,7 +90,7 @@ def test_a_bearing_may_be_derived_with_checks_of_its_own():
         ),
         (
             {"grooves": (FeedHole(center=0.0, diameter=0.1),), "length": 0.2},
-            r"diameter of a feed hole must be below 0\.1 m, that of the bearing",
+            r"diameter of a feed hole must be below 0\.1 m, so that the square",
         ),
         ({"grooves": (HOLE, Groove(center=1.25, width=0.1))}, "must not overlap"),
         (
@@ -102,7 +102,7 @@ def test_a_bearing_may_be_derived_with_checks_of_its_own():
         ({"circumferential_groove": -0.01}, "circumferential_groove must be finite and not negative"),
         (
             {"circumferential_groove": 0.01, "grooves": (HOLE,)},
-            "must be above the width of the circumferential_groove",
+            "must exceed the width of the circumferential_groove",
         ),
         ({"supply_pressure": 1e5}, "supply_pressure must be 0 without grooves"),
         ({"grooves": (Pad(start=0.0, extent=1.0),)}, "grooves must be a tuple of Groove or FeedHole"),

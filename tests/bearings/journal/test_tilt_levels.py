@@ -280,7 +280,7 @@ MOVING = np.array([0.0, 0.0, 0.1, 0.0])
 
 def warned_force(held, place, rate, speed):
     """Return the force and moment of a journal that must warn of what drives its film."""
-    with pytest.warns(rf.ValidityWarning, match="1.5 times as much as the displacement"):
+    with pytest.warns(rf.ValidityWarning, match="1.5 times as fast as the displacement"):
         return held.force(place, rate, speed)
 
 

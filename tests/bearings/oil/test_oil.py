@@ -87,9 +87,9 @@ def test_laws_state_the_temperatures_between_which_they_hold():
     ],
 )
 def test_a_viscosity_beyond_its_law_is_warned_of(oil, celsius):
-    with pytest.warns(ValidityWarning, match=rf"holds from .* degC, and is taken at {celsius:g} degC"):
+    with pytest.warns(ValidityWarning, match=rf"is valid from .* degC, and is used at {celsius:g} degC"):
         oil.viscosity(CELSIUS + celsius)
-    with pytest.warns(ValidityWarning, match="holds from"):
+    with pytest.warns(ValidityWarning, match="is valid from"):
         oil.thinning([320.0, CELSIUS + celsius])
 
 

@@ -230,7 +230,7 @@ def test_a_free_shaft_feels_nothing():
 def test_a_load_that_is_roundoff_of_the_balls_is_refused():
     turning = BallBearing(balls=9, ball_diameter=8e-3, pitch_diameter=33e-3, contact_angle=0.35)
     assert turning.rest([0.0, -0.1, 1.0, 0.0, 0.0], 500.0).residual < 1e-12
-    with pytest.raises(EquilibriumError, match="load must stand out from roundoff of the forces of balls"):
+    with pytest.raises(EquilibriumError, match="load must exceed the round-off of the ball forces"):
         turning.rest([0.0, -1e-10, 1e-9, 0.0, 0.0], 500.0)
 
 
@@ -272,9 +272,9 @@ def test_stiffness_across_a_load_depends_on_where_the_balls_are():
 def test_errors_name_argument_rule_and_value():
     with pytest.raises(InputError, match="internal_clearance or contact_angle must be given, and not both"):
         BallBearing(balls=8, ball_diameter=8e-3, pitch_diameter=33.5e-3)
-    with pytest.raises(InputError, match="balls must find room on the pitch circle"):
+    with pytest.raises(InputError, match="balls must fit on the pitch circle"):
         replace(DEEP, balls=20)
-    with pytest.raises(InputError, match=r"on the pitch circle, which leaves 0\.02901 m for each"):
+    with pytest.raises(InputError, match=r"on the pitch circle, which has 0\.02901 m for each"):
         replace(DEEP, balls=3, ball_diameter=32e-3)
     with pytest.raises(InputError, match="axial_load must be a single finite number, got nan"):
         replace(DEEP, axial_load=math.nan)

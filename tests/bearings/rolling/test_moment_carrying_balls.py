@@ -210,7 +210,9 @@ def test_what_does_not_fit_is_refused() -> None:
         four.output(0.0, (), np.zeros(11))
     with pytest.raises(InputError, match="velocity must be finite"):
         four.jacobian(np.zeros(4), [0.0, math.nan, 0.0, 0.0], 1.0)
-    with pytest.raises(EquilibriumError, match="load must press the balls on the shoulders of their rings"):
+    with pytest.raises(
+        EquilibriumError, match="load must press the balls against the shoulders of their rings"
+    ):
         MomentCarryingBalls(bearing=SINGLE, freedoms=BALL_FREEDOMS).rest_place(
             [0.0, 0.0, -50.0, 0.0, 0.0], 100.0
         )

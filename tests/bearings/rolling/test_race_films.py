@@ -318,9 +318,11 @@ def test_films_go_out_as_an_fmu(pressed, tmp_path):
 
 def test_errors_name_argument_rule_and_value(pressed):
     rest = ANGULAR.rest((0.0, 0.0, 500.0, 0.0, 0.0), 0.0)
-    with pytest.raises(InputError, match=r"rest must have loaded balls and turn, .* at 0\.0 rad/s"):
+    with pytest.raises(
+        InputError, match=r"rest must be at a speed other than 0 and have loaded balls, .* at 0\.0 rad/s"
+    ):
         film_damping(ANGULAR, rest, **OIL)
-    with pytest.raises(InputError, match="rest must be of the bearing, got one of 10 balls"):
+    with pytest.raises(InputError, match="rest must be that of this bearing, got one with 10 balls"):
         film_damping(DEEP, ANGULAR.rest((0.0, 0.0, 500.0, 0.0, 0.0), FAST), **OIL)
     with pytest.raises(InputError, match="structural_time must be finite and not negative, got -1"):
         film_damping(ANGULAR, rest, **OIL, structural_time=-1.0)

@@ -104,7 +104,7 @@ def test_static_thrust():
 
 
 def test_a_thrust_bearing_whose_load_is_roundoff_is_refused():
-    with pytest.raises(rf.EquilibriumError, match="bearings must be stiff enough beside the shaft"):
+    with pytest.raises(rf.EquilibriumError, match="bearings must be stiff enough to hold the shaft"):
         rf.analysis.axial_statics(shaft(8), [rf.analysis.AxialSpring(node=2, stiffness=1e-6)], {8: 1e5})
 
 

@@ -244,7 +244,10 @@ def test_film_that_knows_directions_is_refused(rotor):
 
 @pytest.mark.parametrize(
     ("arguments", "match"),
-    [(([-0.1], [0.2]), "squeeze_numbers must be positive"), (([0.1], [-0.2]), "spring_ratios not negative")],
+    [
+        (([-0.1], [0.2]), "squeeze_numbers must be positive"),
+        (([0.1], [-0.2]), "spring_ratios must not be negative"),
+    ],
 )
 def test_bad_map_is_refused(support, arguments, match):
     with pytest.raises(InputError, match=match):

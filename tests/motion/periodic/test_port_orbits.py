@@ -158,10 +158,10 @@ def test_what_has_no_orbit_is_refused_by_name():
     with pytest.raises(rf.InputError, match="speed must be constant"):
         periodic_orbit(replace(mounted, rotor=replace(mounted.rotor, speed=rising)))
     worn = rf.BushReaction(bush=f4k20_bush(), melting_heat=1e8, nodes=16, extent=1.4, retardation=2e-4)
-    with pytest.raises(rf.ConvergenceError, match="a state of a bearing drifts, as wear does"):
+    with pytest.raises(rf.ConvergenceError, match="a state of a bearing drifts: a bush wears"):
         periodic_orbit(rf.mount(replace(mounted.rotor, mass=10.0), {"": worn}))
     loose = rf.mount(shaft(axial=True), {"left": FILM, "right": FILM})
-    with pytest.raises(rf.ConvergenceError, match="as a shaft without a thrust bearing does"):
+    with pytest.raises(rf.ConvergenceError, match="no thrust bearing holds the shaft"):
         periodic_orbit(loose)
     other = periodic_orbit(rf.mount(shaft(), {"left": FILM, "right": FILM}))
     with pytest.raises(rf.InputError, match="start must be an orbit of these bearings"):

@@ -226,7 +226,7 @@ def leading(kind, shape, speed):
 def test_the_threshold_is_that_of_the_state_space(kind, shape):
     rotor, films = placed(kind, shape)
     if shape == "rigid" and kind == "seal with mass":
-        with pytest.raises(InputError, match="reaction must not add its oil's mass to the rotor here"):
+        with pytest.raises(InputError, match="reaction must not add the mass of its oil to the rotor"):
             whirl_threshold(films[""], rotor.static_load, rotor.mass, (200.0, 1500.0))
         return
     if shape == "rigid":

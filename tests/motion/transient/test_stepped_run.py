@@ -154,7 +154,7 @@ def test_a_shaft_takes_a_film_in_each_station():
         simulate(shaft, {"left": FILM}, **given)
     with pytest.raises(InputError, match="rotor must have the outputs"):
         simulate(shaft, FILM, **given)
-    with pytest.raises(InputError, match=r"reaction\['right'\] must be a film that steps"):
+    with pytest.raises(InputError, match=r"reaction\['right'\] must be a film with a time step of its own"):
         simulate(shaft, {"left": FILM, "right": BEARING}, **given)
 
 

@@ -331,7 +331,9 @@ def test_a_rotor_finds_its_orbits():
 
 def test_a_film_without_oil_is_refused():
     for empty in ({}, {"submerged": True}, {"circumferential_groove": 0.0}, {"cavitation_pressure": -1e5}):
-        with pytest.raises(InputError, match=r"a supply above the pressure of its cavity, .* dry: supply"):
+        with pytest.raises(
+            InputError, match=r"supply_pressure must be above cavitation_pressure, .* dry: give supply"
+        ):
             DamperSupply(**empty)
     with pytest.raises(
         InputError, match="fed by one of circumferential_groove, end_groove and feed_holes, got"
@@ -350,7 +352,9 @@ def test_a_film_without_oil_is_refused():
 def test_other_motions_and_contact_are_said():
     one = damper()
     for motion in (([0.5 * c, 0.0], [1e-3, 1e-3]), ([0.0, 0.0], [1e-3, 0.0])):
-        with pytest.raises(InputError, match=r"velocity must be 0 or across the position.*damper_turn"):
+        with pytest.raises(
+            InputError, match=r"velocity must be 0 or perpendicular to the position.*damper_turn"
+        ):
             one.force(*motion, 0.0)
     with pytest.raises(FilmContactError, match="inside the clearance"):
         one.orbit(1.0, OMEGA)

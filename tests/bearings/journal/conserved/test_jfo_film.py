@@ -182,7 +182,7 @@ def test_a_result_is_printed_and_drawn(fed):
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"grooves": ()}, "must have a supply.*a groove or a feed hole.*submerged=True"),
+        ({"grooves": ()}, "must have an oil supply.*a groove or a feed hole.*submerged=True"),
         (
             {"grooves": (Groove(center=0.0),), "supply_pressure": 1e5},
             "must end within the bearing.*length=0.04",
@@ -212,7 +212,7 @@ def test_bearings_that_it_refuses(given, message):
         ({"supply_flow": 0.0}, "supply_flow must be finite and positive"),
         ({"supply_flow": 1e-6, "bearing": bearing(supply_pressure=1e5)}, "supply_pressure must be 0 where"),
         ({"supply_flow": 1e-6, "bearing": bearing(grooves=(Groove(center=0.0),))}, "must end within"),
-        ({"bearing": bearing(grooves=()), "submerged": True}, "must have a supply"),
+        ({"bearing": bearing(grooves=()), "submerged": True}, "must have an oil supply"),
     ],
 )
 def test_arguments_break_a_rule(given, message):

@@ -124,7 +124,7 @@ def test_rupture_is_exact_behind_a_line_groove_at_the_widest_gap():
 
 
 def test_error_of_rupture_needs_a_supply_and_a_speed():
-    with pytest.raises(InputError, match="must have a supply"):
+    with pytest.raises(InputError, match="must have an oil supply"):
         rupture_error(bearing(), [2e-5, 0.0], omega)
     with pytest.raises(InputError, match="speed must not be zero"):
         rupture_error(bearing(**OPENINGS["groove"]), [2e-5, 0.0], 0.0)
