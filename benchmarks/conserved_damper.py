@@ -1,4 +1,4 @@
-"""Dampers that conserve their oil: the table of docs/damper.md, its picture, and what grids are good for.
+"""Dampers that conserve their oil: the table and picture of docs/damper_supply.md, and errors of grids.
 
     python benchmarks/conserved_damper.py [PICTURE.png]
 
