@@ -145,7 +145,9 @@ def plot_run_orbits(found: analysis.RunOrbits) -> Picture:
         marks = [CurveMark(x, y, width=1.0), CurveMark(x[dots], y[dots], "keyphasor", "k", "", marker="o")]
         text = "x [um]", "y [um]", f"{speed / RPM:.0f} rpm"
         panels.append(PicturePanel(marks, *text, equal=True, legend="inside" if k == 0 else "none"))
-    return Picture(tuple(panels), columns=3, size=(3.8, 3.6), title=label_of(found.station))
+    return Picture(
+        tuple(panels), columns=3, size=(3.8, 3.6), title=f"Orbits of the journal {found.station}".rstrip()
+    )
 
 
 def plot_time_windows(run: Trajectory, starts: Sequence[float] = (), station: str = "") -> Picture:

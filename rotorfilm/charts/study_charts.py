@@ -63,8 +63,8 @@ def plot_bearing_thresholds(result: StudyResult) -> Picture:
 # The atlas of limits: where each simplification fails, a figure for each physics and a summary of all.
 
 
-HOLDS, DEPENDS, FAILS = "#9fd3a8", "#f5d97a", "#e79a8f"
-"""Colors of the summary: where all variants hold, some, and none."""
+HOLDS, DEPENDS, FAILS = "#8fc3e8", "#f5e08a", "#e39a6b"
+"""Colors of the summary, blue, yellow and orange: where all variants hold, some, and none."""
 
 
 def plot_limits(atlas: StudyResult) -> dict[str, Picture]:
@@ -117,8 +117,8 @@ def plot_limit_summary(atlas: StudyResult) -> Picture:
         scale = np.log if panel.logarithmic else np.asarray
         names.append(f"{panel.physics}: {panel.title}")
         shares.append((scale([first, last]) - scale(low)) / (scale(high) - scale(low)))
-        until = f"{first:.3g}" if first == last else f"{first:.3g} or {last:.3g}"
-        texts.append(f"{panel.x_label}: {low:.3g} to {until}; examined to {high:.3g}")
+        until = f"all to {first:.3g}" + (f", some to {last:.3g}" if first != last else "")
+        texts.append(f"{panel.x_label}: {until}; examined from {low:.3g} to {high:.3g}")
     rows = (FAILS, "no variant", np.ones(len(names))), (DEPENDS, "some", np.array(shares)[:, 1])
     marks: list[Mark] = [
         BarsMark(np.array(names), tops, label, color, across=True)

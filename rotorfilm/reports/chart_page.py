@@ -27,7 +27,7 @@ EXPLAINED = {
     "chart_heat": "How far each model of a film that warms is from the richest one, over what it costs.",
     "chart_heat_film": "Pressure and temperature over and across one film that warms.",
     "chart_journal": "Error of the force of every journal film over its cost; lower left is better.",
-    "chart_limits": "Where each simplification stays within 10 %: green with all variants, yellow with some.",
+    "chart_limits": "Where each simplification stays within 10 %: blue with all variants, yellow with some.",
     "chart_pads": "Error of the films of pads over their cost; lower left is better.",
     "chart_rolling": "Ball bearings: loads, contact angles, stiffness over speed and preload, swing.",
     "chart_rolling_ladder": "Error of the models of ball bearings over their cost; lower left is better.",

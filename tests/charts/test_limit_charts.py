@@ -54,6 +54,9 @@ def test_the_summary_tells_where_all_some_and_no_variants_hold(atlas):
     np.testing.assert_allclose(bars["all variants"].tops, [1.0, 0.5])
     np.testing.assert_allclose(bars["some"].tops, [1.0, 1.0])
     notes = [one.text for one in picture.panels[0].marks if isinstance(one, NoteMark)]
-    assert notes == ["size: 0.1 to 10; examined to 10", "size: 0.1 to 1 or 10; examined to 10"]
+    assert notes == [
+        "size: all to 10; examined from 0.1 to 10",
+        "size: all to 1, some to 10; examined from 0.1 to 10",
+    ]
     assert picture.draw()
     assert picture.to_plotly().to_json()
