@@ -137,8 +137,9 @@ class JFOFilm(MassConserving):
         whole length at ambient pressure. Gaps between pads are full of oil at ambient pressure. Its own film
         law is not used. With an oil and a cooling, `equilibrium` finds the film temperature too. Its
         turbulence acts on pressure flow and shear. In the cavity it acts on the part of the gap that is oil,
-        with the factors of a full gap. Each tilting pad stands so that its film has no moment about the pivot.
-        Tilting pads have no steps in time, and with a cavity below ambient pressure all must carry a load.
+        with the factors of a full gap. Each tilting pad stands so that its film has no moment about the
+        pivot. Tilting pads have no steps in time, and with a cavity below ambient pressure all must carry a
+        load.
     cells : tuple of int
         Approximate numbers of lines around the film and of cells along half the length; even.
     supply_flow : float or None [m3/s]
