@@ -65,7 +65,7 @@ def test_the_distance_from_the_limit_is_step_times_damping_over_mass(make_spring
     assert calm.watch.warnings == ()
     damper = InProcessSlave(make_spring_damper(1.0, 4.0))
     with (
-        pytest.warns(CouplingWarning, match=r"mass is 1.33, near or beyond the limit 2 of Gauss"),
+        pytest.warns(CouplingWarning, match=r"mass is 1.33, near or beyond the stability limit 2 of Gauss"),
         pytest.raises(CouplingError, match="more than Gauss-Seidel 0 foresees"),
     ):
         couple(InProcessSlave(rotor), damper, macro_step=1.0, duration=20.0)

@@ -60,7 +60,7 @@ def test_what_a_table_builds():
         ((THIN, "axial_load = -5\n", RUN), "thrust.axial_load must press the collar onto the pads"),
         ((THIN, "play = 0\n", RUN), "thrust.play must be finite and positive"),
         ((TILTING, RUN), r"thrust.viscosity is required where \[lubricant\]"),
-        ((TILTING, "play = 1e-4\n", RUN, OIL), "case.toml: viscosity must be given beside play"),
+        ((TILTING, "play = 1e-4\n", RUN, OIL), "case.toml: viscosity must be given with play"),
         ((THIN, "pivot_arc = 0.5\n", RUN), "thrust.pivot_arc must not be 0.5"),
         ((THIN, "inner_radius = 0.02\n", RUN), "thrust.inner_radius and .*inner_diameter must not both"),
     ],

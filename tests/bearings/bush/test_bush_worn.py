@@ -128,5 +128,5 @@ def test_a_place_that_does_not_carry_the_load_is_refused():
 
 
 def test_contact_beyond_the_nodes_is_refused():
-    with pytest.raises(ConvergenceError, match=r"half the contact must stay below 0\.15 rad"):
+    with pytest.raises(ConvergenceError, match=r"half of the contact angle must stay below 0\.15 rad"):
         wear_at_nodes(wearing(8.0), SharedMelting(), (Stage(0.1, RATIO),), 16, 0.15)

@@ -229,7 +229,7 @@ def test_a_motion_beyond_the_loads_of_the_law_is_said_and_better_on_a_law_about_
         error = np.interp(full.time, motion.time, motion["z"]) - full.delta
         return np.sqrt(np.mean(error**2) / np.mean((full.delta - full.delta.mean()) ** 2))
 
-    with pytest.warns(ValidityWarning, match=r"got \S* to 3\.[0-9]*: take the law about"):
+    with pytest.warns(ValidityWarning, match=r"got \S* to 3\.[0-9]*: fit the law at"):
         beyond = miss(reduce_contact(CONTACT))
     # about the load that the ball swings around; it needs no warning
     assert miss(reduce_contact(CONTACT, load=1.6)) < 0.5 * beyond

@@ -191,7 +191,7 @@ def test_a_shaft_under_thrust_gives_way_along_its_axis(speed):
     assert (moved[0] - moved[1]) / (2.0 * step) == pytest.approx(slopes[:, 0], rel=1e-6)
 
 
-@pytest.mark.filterwarnings("ignore:a ball carries", "ignore:the gyroscopic moment")
+@pytest.mark.filterwarnings("ignore:the load of a ball should be", "ignore:the gyroscopic moment")
 def test_a_shaft_under_thrust_finds_its_place_across_the_whole_way():
     # Newton's method may end from one side, while the other bound of the search is still infinite.
     held = BallBearing(
