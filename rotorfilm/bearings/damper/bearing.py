@@ -30,8 +30,17 @@ from ...native.film_kernels import OilDamperKernel, OilParts, OilScales
 from ...native.spec import NativeParameter, NativeSpec
 from ..films.geometry import FullFilm, HalfSommerfeld
 from ..films.law import BoundKernel, options
+from ..films.polar_table import polar_tables
 from ..reaction import NOMINAL_SPEED, InertialModel, broadcast_state, require_size
-from .squeeze_films import KernelSqueezeFilm, LayerModes, PorousLayer, SqueezeFilm, layer_modes
+from .squeeze_films import (
+    LARGEST,
+    FiniteSqueezeFilm,
+    KernelSqueezeFilm,
+    LayerModes,
+    PorousLayer,
+    SqueezeFilm,
+    layer_modes,
+)
 from .squeeze_inertia import (
     FilmSegment,
     SegmentedDamper,
@@ -44,6 +53,7 @@ from .squeeze_laws import (
     LARGEST_TABULATED,
     EndSeal,
     FilmInertia,
+    LinearSqueezeFilm,
     RadialTable,
     SealedShortFilm,
     ShortSqueeze,
@@ -182,8 +192,8 @@ class SqueezeFilmDamper(InertialModel):
     feed : RadialFeed or AxialFeed, optional
         Feed in addition to a supply pressure at a vented back of the cage.
     film : SqueezeLaw
-        `ShortSqueeze()`, `FiniteSqueeze()`, and their maps `MapSqueeze()` and `FiniteMapSqueeze()`. All but
-        `FiniteSqueeze()` run in C inside an FMU. `PublishedSqueeze()` reproduces a published film.
+        `ShortSqueeze()`, `FiniteSqueeze()`, and their maps `MapSqueeze()` and `FiniteMapSqueeze()`.
+        `PublishedSqueeze()` reproduces a published film. All of them run in C inside an FMU.
     seals : EndSeal or None
         Seals at both ends of a solid cage without feed; None for open ends.
     density : float [kg/m3]
@@ -283,6 +293,11 @@ class SqueezeFilmDamper(InertialModel):
     def bound_film(self) -> SqueezeFilm:
         """The film law in this damper's dimensions."""
         return self.film.bind(self.squeeze_case)
+
+    @cached_property
+    def polar_tables(self) -> dict[str, Array]:
+        """Tables of a full film without map, for the C library; of a film of finite length in a second."""
+        return polar_tables(self.bound_film.jacobian, LARGEST, self.slenderness)
 
     @cached_property
     def film_in_c(self) -> BoundKernel | None:
@@ -536,7 +551,7 @@ KERNELS = (SqueezeFilmDamper, PorousDamper)
 # The kernel of the C library that is a squeeze-film damper over a map, with or without retainer springs.
 
 
-KERNEL, SHORT_KERNEL, SEALED_KERNEL = "damper", "short_damper", "oil_damper"
+KERNEL, SHORT_KERNEL, SEALED_KERNEL, POLAR_KERNEL = "damper", "short_damper", "oil_damper", "polar_damper"
 
 DIMENSIONS = (
     ("radius", "m", "radius of the film"),
@@ -549,21 +564,22 @@ DIMENSIONS = (
 def damper_spec(damper: SqueezeFilmDamper) -> NativeSpec | None:
     """Return the kernel of a damper for an FMU; None if it has none.
 
-    It is `oil_damper` with seals or inertia, else `damper` over a map and `short_damper` without one. What
-    the tables hold for is fixed: the ratios L/D of a film of finite length, H/L and A H/C^3 of a cage, and
-    what a table makes of seals.
+    It is `oil_damper` with seals or inertia, else `damper` over a map, `short_damper` over a short film, and
+    `polar_damper` over another full film. What the tables hold for is fixed: the ratios L/D of a film of
+    finite length, H/L and A H/C^3 of a cage, what a table makes of seals, and the feed of another full film.
     """
     film, parts = _compiled(damper.bound_film), _parts(damper) if damper.is_built else None
-    if parts is None and (damper.is_built or film is None):
+    polar = isinstance(damper.bound_film, FiniteSqueezeFilm | LinearSqueezeFilm)
+    if parts is None and (damper.is_built or (film is None and not polar)):
         return None
     tabled = parts is not None and parts.radial is not None
     tables = dict(film.kernel.tables or {}) if film is not None else None
     held: set[str] = set()
-    if tabled or (film is not None and film.one_slenderness):
+    if tabled or getattr(film or damper.bound_film, "one_slenderness", False):
         held = {"radius", "length"}
     if damper.cage is not None:
         held |= {"length", "clearance"}
-    if tabled and damper.seals is not None:
+    if (tabled and damper.seals is not None) or (polar and damper.is_fed):
         held |= {"clearance", "viscosity"}
     kernel, parameters = KERNEL, _dimensions(damper, held)
     if parts is not None:
@@ -573,6 +589,8 @@ def damper_spec(damper: SqueezeFilmDamper) -> NativeSpec | None:
             bounded("leakage", "m2/(Pa.s)", "of the seals", leakage, fixed=parts.sealed == 0.0),
         )
         kernel, tables = SEALED_KERNEL, parts.tables(tables, heavy=heavy)
+    elif polar:
+        kernel, tables = POLAR_KERNEL, damper.polar_tables
     elif film is not None and not film.kernel.is_table:
         kernel, parameters = SHORT_KERNEL, parameters + _feeds(damper)
         tables = {**(tables or {}), **_feed_tables(damper)}

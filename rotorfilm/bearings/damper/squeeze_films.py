@@ -17,7 +17,7 @@ import math
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import pairwise
-from typing import NamedTuple, Protocol, runtime_checkable
+from typing import ClassVar, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -385,6 +385,9 @@ class FiniteSqueezeFilm:
     layer: PorousLayer | None
     modes: LayerModes
     feed: Array
+
+    one_slenderness: ClassVar[bool] = True
+    """It is that of one length / diameter only."""
 
     def force(self, eccentricity: Array, rate: Array) -> Array:
         """Return the force on the rotor, shape (2, ...); see `SqueezeFilm.force`."""

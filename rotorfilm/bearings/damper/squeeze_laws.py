@@ -147,7 +147,7 @@ class PublishedSqueeze(SqueezeOptions):
                 f"grading must not be negative for PublishedSqueeze(), got {case.layer.grading!r}"
             )
         conductance = 1.0 if case.layer is None else published_conductance(case.layer)
-        return _LinearSqueezeFilm(math.pi * conductance, 3.0 * math.pi * float(np.sum(case.feed)))
+        return LinearSqueezeFilm(math.pi * conductance, 3.0 * math.pi * float(np.sum(case.feed)))
 
 
 def sealed_short(film: SqueezeFilm, case: SqueezeCase) -> SqueezeFilm:
@@ -190,14 +190,24 @@ def parabola_mean(x: float) -> float:
 
 
 @dataclass(frozen=True)
-class _LinearSqueezeFilm:
+class LinearSqueezeFilm:
+    """A full film of constant damping and stiffness.
+
+    Parameters
+    ----------
+    damping, stiffness : float [1]
+        Force per rate and per eccentricity, against them.
+    """
+
     damping: float
     stiffness: float
 
     def force(self, eccentricity: Array, rate: Array) -> Array:
+        """Return the force on the rotor, shape (2, ...); see `SqueezeFilm.force`."""
         return -self.damping * rate - self.stiffness * eccentricity
 
     def jacobian(self, eccentricity: Array, rate: Array) -> Array:
+        """Return d force / d (eccentricity, rate), shape (2, 4, ...); see `SqueezeFilm.jacobian`."""
         constant = np.concatenate([-self.stiffness * np.eye(2), -self.damping * np.eye(2)], axis=1)
         axes = (1,) * (eccentricity.ndim - 1)
         return np.broadcast_to(constant.reshape(2, 4, *axes), (2, 4, *eccentricity.shape[1:])).copy()

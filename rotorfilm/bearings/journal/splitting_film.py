@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -23,6 +23,7 @@ from ...core.errors import InputError, ValidityWarning, require_kind, warn_user
 from ...core.inputs import quantities
 from ...core.model import Array
 from ..films.law import PolarFrame, PolarResponse, polar_force, polar_jacobian
+from ..films.polar_table import polar_tables
 from .complementarity import trial_functions
 from .rupture import (
     Basis,
@@ -38,6 +39,9 @@ from .rupture import (
     pair_integrals,
     whitened,
 )
+
+TABULATED = 0.999
+"""Eccentricity ratio at which the table of an FMU ends."""
 
 
 @quantities
@@ -72,7 +76,8 @@ class SplittingFilm:
     Notes
     -----
     On a fixed arc, n = 1 gives a damping matrix of rank one, so that no whirl threshold exists; from n = 2 on
-    the damping matrix is exactly symmetric.
+    the damping matrix is exactly symmetric. A bearing on a fixed arc is a native FMU; on other arcs its FMU
+    needs Python.
     """
 
     order: tuple[int, int | None] = (2, None)
@@ -102,6 +107,13 @@ class SplittingFilm:
         return polar_jacobian(
             lambda frame: self._response(frame, slenderness), eccentricity, source, turns=self.rupture.turns
         )
+
+    def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]] | None:
+        """Return the kernel of the C library and its tables; None unless the arc is fixed."""
+        if not isinstance(self.rupture, FixedArc):
+            return None
+        tables = polar_tables(lambda e, w: self.jacobian(e, w, slenderness), TABULATED, slenderness)
+        return "polar_journal", tables
 
     def _response(self, frame: PolarFrame, slenderness: float) -> PolarResponse:
         n, m = self.order

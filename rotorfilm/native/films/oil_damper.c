@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "chebyshev.h"
 #include "map_frame.h"
 #include "squeeze_film.h"
 
@@ -29,21 +30,6 @@ static motion scaled(const rf_oil_damper *of, const double *state)
     return at;
 }
 
-/* Sums of Chebyshev polynomials and their derivatives at x for all columns, by Clenshaw's recurrence. */
-static void chebyshev(const rf_oil_damper *of, double x, double *value, double *slope)
-{
-    for (int k = 0; k < RF_RADIAL; ++k) {
-        double b1 = 0.0, b2 = 0.0, d1 = 0.0, d2 = 0.0;
-        for (int32_t j = of->terms - 1; j > 0; --j) {
-            const double b = of->table[j * RF_RADIAL + k] + 2.0 * x * b1 - b2;
-            const double d = 2.0 * b1 + 2.0 * x * d1 - d2;
-            b2 = b1, b1 = b, d2 = d1, d1 = d;
-        }
-        value[k] = of->table[k] + x * b1 - b2;
-        slope[k] = b1 + x * d1 - d2;
-    }
-}
-
 /* Add the table; beyond its reach it goes on as powers of s. Answers whether it does. */
 static int add_table(const rf_oil_damper *of, double E, radial *to)
 {
@@ -51,7 +37,7 @@ static int add_table(const rf_oil_damper *of, double E, radial *to)
     const double s = sqrt(1.0 - E), least = of->least, x = (2.0 * s - 1.0 - least) / (1.0 - least);
     const int beyond = s < least * (1.0 - 1e-9);
     double value[RF_RADIAL], slope[RF_RADIAL];
-    chebyshev(of, x < -1.0 ? -1.0 : x > 1.0 ? 1.0 : x, value, slope);
+    rf_chebyshev(of->table, of->terms, RF_RADIAL, x < -1.0 ? -1.0 : x > 1.0 ? 1.0 : x, value, slope);
     for (int k = 0; k < RF_RADIAL; ++k) {
         const double scale = pow(s, -POWERS[k]), inside = s < least ? 0.0 : 2.0 / (1.0 - least);
         const double by_s = slope[k] * inside - POWERS[k] * value[k] / s;
