@@ -65,6 +65,8 @@ class StudyStyle:
         Color, or color, line and mark, by the family of a rung.
     in_turn : sequence of (str, str, str)
         Color, line and mark of families that are not among these.
+    reference : str
+        What the title calls the reference of the result.
     joined : bool
         Whether the rungs of a family are joined by a line, over all cases.
     band : str
@@ -83,6 +85,7 @@ class StudyStyle:
     panels: Sequence[StudyPanel]
     lines: Mapping[Any, str | Line] = field(default_factory=dict)
     in_turn: Sequence[Line] = IN_TURN
+    reference: str = "reference"
     joined: bool = False
     band: str = ""
     champion: str = ""
@@ -115,9 +118,10 @@ def plot_study(result: StudyResult) -> Picture:
     last = min(style.columns, len(panels)) - 1
     panels[last] = panels[last]._replace(legend="beside")
     numbers = {name: value for name, value in result.notes.items() if isinstance(value, float)}
-    told = {"reference [-]": result.reference, **result.conditions, **numbers}
-    texts = (f"{name.partition(' [')[0]}: {_text(value)}" for name, value in told.items())
-    lines = [style.title, *textwrap.wrap("; ".join(texts), int(11.0 * style.size[0] * (last + 1)))]
+    told = {style.reference: result.reference, **result.conditions, **numbers}
+    text = "; ".join(f"{name.partition(' [')[0]}: {_text(value)}" for name, value in told.items())
+    rows = math.ceil(len(text) / int(11.0 * style.size[0] * (last + 1)))  # of about equal length
+    lines = [style.title, *textwrap.wrap(text, math.ceil(1.1 * len(text) / rows))]
     return Picture(tuple(panels), style.columns, style.size, "\n".join(lines))
 
 
@@ -356,6 +360,7 @@ STYLES = {
             StudyPanel(S, "least film/c [1]", scale="linear"),
         ),
         in_turn=TYPE_LINES,
+        reference="definitions",
         joined=True,
         columns=4,
         size=(3.75, 3.6),

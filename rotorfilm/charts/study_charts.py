@@ -88,8 +88,8 @@ def plot_limits(atlas: StudyResult) -> dict[str, Picture]:
 
 def _limits(panel: Panel, curves: dict[str, tuple[np.ndarray, np.ndarray]]) -> PicturePanel:
     marks: list[Mark] = [
-        CurveMark(*curve, name, f"C{k % 10}", marker="o", size=3.0)
-        for k, (name, curve) in enumerate(curves.items())
+        CurveMark(*curve, name, f"C{k % 10}", dash, marker="o", size=3.0)
+        for k, ((name, curve), dash) in enumerate(zip(curves.items(), cycle(("-", "--", ":", "-."))))
     ]
     if panel.level is not None:
         marks.append(LevelMark(panel.level, f"failed: {panel.level:g}", dash="--"))
