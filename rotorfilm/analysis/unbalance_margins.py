@@ -114,7 +114,7 @@ def amplification_factor(speeds: ArrayLike, phasors: ArrayLike, peak: float) -> 
     Parameters
     ----------
     speeds : array_like, shape (n,) [rad/s]
-        Rising, and so close that a spline follows the response.
+        Rising speeds, close enough that a spline follows the response.
     phasors : array_like of complex, shape (n,)
         The response.
     peak : float [rad/s]

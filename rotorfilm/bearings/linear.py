@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
-from ..core.errors import InputError, require_finite, warn_user
+from ..core.errors import InputError, brief, require_finite, warn_user
 from ..core.files import read_text
 from ..core.frames import Column, ResultTable, write_csv
 from ..core.inputs import quantities
@@ -412,8 +412,8 @@ class LinearBearing(LinearReaction):
         if array.shape == (n,) or (not array.ndim and not (turning and array)):
             return array * np.eye(n)
         raise InputError(
-            f"{name} must be {'' if turning else 'a number or '}{n} x {n} numbers, or {n} of the diagonal, "
-            f"for {', '.join(self.freedoms)}, got {value!r}"
+            f"{name} must be {'' if turning else 'a number or '}{n} x {n} numbers, or the {n} numbers of its "
+            f"diagonal, for {', '.join(self.freedoms)}, got {brief(value)} of shape {array.shape}"
         )
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:

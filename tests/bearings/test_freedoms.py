@@ -232,7 +232,7 @@ def test_freedoms_out_of_order_are_refused(freedoms) -> None:
     [
         (
             {"stiffness": 1e6},
-            r"stiffness must be 3 x 3 numbers, or 3 of the diagonal, for z, tilt_x, tilt_y, got",
+            r"stiffness must be 3 x 3 numbers, or the 3 numbers of its diagonal, for z, tilt_x, tilt_y, got",
         ),
         ({"stiffness": (1.0, 2.0)}, "stiffness must be 3 x 3 numbers"),
         ({"stiffness": np.eye(2)}, "stiffness must be 3 x 3 numbers"),

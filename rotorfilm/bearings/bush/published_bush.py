@@ -187,8 +187,8 @@ def _step_method(
 def f4k20_bush() -> MeltingBush:
     """Return the example of Evtushenko & Kovalenko (1993), section 4, as a `MeltingBush`.
 
-    Shaft and housing of steel, liner of filled PTFE F4K20. The source calculates with `ApproximateShaft()`;
-    use `dataclasses.replace` to do the same.
+    Shaft and housing are of steel, and the liner is of filled PTFE F4K20. The source calculates with
+    `ApproximateShaft()`; use `dataclasses.replace` to do the same.
     """
     return MeltingBush(
         geometry=BushGeometry(radius=13e-3, outer_radius=14.5e-3, shaft_radius=12.5e-3, length=0.1),

@@ -77,7 +77,7 @@ class ContactGrid:
 
     @property
     def lines(self) -> tuple[Array, Array]:
-        """Lines between cells along x, and across from y = 0 on [1]; those of a graded grid meet at 0."""
+        """Lines between the cells, along x and across from y = 0 on [1]; a graded grid is finest at 0."""
         (nx, m), b = self.shape, self.focus
         if b is None:
             return (

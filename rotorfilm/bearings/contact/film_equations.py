@@ -171,7 +171,7 @@ class RoelandsViscosity:
         return np.exp(factor * (1.0 - positive**self.exponent) - coefficient * np.minimum(pressure, 0.0))
 
     def potential(self, pressure: Array, coefficient: float) -> Array:
-        """Return the integral by the upper incomplete gamma function of u = A (1 + s p)^z, A = Q0/(s z)."""
+        """Return the integral of the mobility, an upper incomplete gamma function of A (1 + s p)^z."""
         z, s = self.exponent, self.pressure_ratio
         factor = coefficient / (s * z)
         u = factor * (1.0 + s * np.maximum(pressure, 0.0)) ** z

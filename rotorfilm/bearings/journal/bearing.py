@@ -621,8 +621,8 @@ class BalancedBearing(StaticReaction):
     Parameters
     ----------
     bearing : JournalBearing
-        Bearing with oil and cooling; its film law has losses in the C library, as `MapFilm` has and
-        `ShortFilm`.
+        Bearing with oil and cooling; its film law must have losses in the C library, as `MapFilm` and
+        `ShortFilm` have.
     """
 
     bearing: WarmBearing

@@ -229,7 +229,7 @@ def ring_kernel(film: ReynoldsFilm, slenderness: float, extrapolated: bool) -> R
 class ExtrapolatedFilm(KernelFilm):
     """Richardson extrapolation of a `ReynoldsFilm` and of the same film with half the cells.
 
-    The force is F_h + (F_h - F_2h)/3, its derivatives are the same of the derivatives of both.
+    The force is F_h + (F_h - F_2h)/3, and its derivatives are extrapolated in the same way.
 
     Parameters
     ----------
