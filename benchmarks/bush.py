@@ -123,7 +123,9 @@ def draw(path: str, times: np.ndarray, found: dict[str, np.ndarray]) -> None:
     first.remove()
     panels = figure.subplots(2, 2)
     for panel in panels.flat:
-        panel.set_prop_cycle(color=["C0", "C1", "C2", "C3"], linestyle=["-", "--", "-.", ":"])
+        panel.set_prop_cycle(
+            color=["tab:blue", "tab:orange", "tab:green", "tab:red"], linestyle=["-", "--", "-.", ":"]
+        )
     bush = replace(BUSH, shaft_heat=ApproximateShaft())
     speeds = {}
     for ratio in (3e-3, 7e-3, 1e-2):

@@ -167,7 +167,9 @@ def draw(found: dict[str, tuple[float, float, float]], path: Path) -> None:
         "Darcy, vented": (full, {"vented": True}),
         "published (signs corrected)": (replace(full, film=PublishedSqueeze()), {}),
     }
-    right.set_prop_cycle(color=["C0", "C1", "C2", "C3"], linestyle=["-", "--", "-.", ":"])
+    right.set_prop_cycle(
+        color=["tab:blue", "tab:orange", "tab:green", "tab:red"], linestyle=["-", "--", "-.", ":"]
+    )
     for label, (film, change) in variants.items():
         cages = [replace(film.cage, grading=value, **change) for value in gradings]
         right.plot(gradings, [centered_damping(replace(film, cage=cage)) for cage in cages], label=label)
