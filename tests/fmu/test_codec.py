@@ -43,7 +43,7 @@ def test_plain_values_come_back_equal(value):
     assert through_json(value) == value
 
 
-@pytest.mark.parametrize("value", [1, 1.0, True, (1,), [1], -0.0, 5e-324, 0.1 + 0.2])
+@pytest.mark.parametrize("value", [1, 1.0, True, (1,), [1], Pair(0.1, 2.0), -0.0, 5e-324, 0.1 + 0.2])
 def test_the_type_and_the_last_bit_come_back(value):
     again = through_json(value)
     assert type(again) is type(value)
@@ -106,7 +106,6 @@ def test_classes_come_from_the_module_that_stands_in():
         (Record(Fraction(1, 2)), r"model\.value must be"),
         (Record((1.0, {"a": 1})), r"model\.value\[1\] must be"),
         (Record(Record(abs)), r"model\.value\.value must be"),
-        (Record(Pair(1.0, 2.0)), r"model\.value must be"),
         (Record(1j), r"model\.value must be"),
         (Record(np.array([1j])), r"model\.value must be an array of real numbers"),
         (Record(np.array([object()])), r"model\.value must be an array of real numbers"),

@@ -13,6 +13,7 @@ from scipy.integrate import DOP853, solve_ivp
 from rotorfilm import (
     Cooling,
     Groove,
+    HeatedFilm,
     JournalBearing,
     Oil,
     RigidRotor,
@@ -21,8 +22,9 @@ from rotorfilm import (
     export_fmu,
     simulate,
 )
+from rotorfilm.analysis import heated_equilibrium
 from rotorfilm.bearings import Turbulence
-from rotorfilm.bearings.journal import GroovedMapFilm, MapFilm, ReynoldsFilm
+from rotorfilm.bearings.journal import GroovedMapFilm, LayeredTemperature, MapFilm, ReynoldsFilm
 from rotorfilm.fmu import check_fmu
 from rotorfilm.native import FOLDER
 
@@ -179,3 +181,23 @@ def test_a_turbulent_film_warms_in_an_fmu_through_pythonfmu(tmp_path):
     name = next(name for name in told.dtype.names if name.rpartition(".")[2] == "film_temperature")
     assert told[name][-1] == pytest.approx(last(running), rel=1e-7)
     assert last(running) > last(film.in_time()) + 0.5
+
+
+@pytest.mark.long
+def test_a_turbulent_film_of_layers_has_its_forces_in_an_fmu_through_pythonfmu(tmp_path):
+    """T3 with the temperature of its equilibrium held: the forces of Python, beside it and in motion."""
+    size = {"radius": 0.25, "length": 0.4, "clearance": 5e-4, "oil": Oil.iso_vg(32), "cooling": COOLING}
+    heated = HeatedFilm(
+        bearing=JournalBearing(**size, turbulence=Turbulence(band=False)),
+        cells=(24, 4),
+        profile=LayeredTemperature(4),
+    )
+    film = heated.following(heated_equilibrium(heated, [0.0, -3e5], 314.16).state)
+    laminar = replace(film, bearing=replace(film.bearing, turbulence=None))
+    place, velocity = np.array([1.5e-4, -2e-4]), np.array([1e-3, -2e-3])
+    inputs = dict(zip(("x", "y", "vx", "vy", "speed"), [*place, *velocity, 300.0], strict=True))
+    path = export_fmu(film, tmp_path / "layers.fmu", "2.0", component="film", start=inputs)
+    told = fmpy.simulate_fmu(str(path), stop_time=0.01, step_size=0.01, output_interval=0.01)
+    force = film.force(place, velocity, 300.0)
+    assert [told["film.force_x"][-1], told["film.force_y"][-1]] == force.tolist()
+    assert np.hypot(*force) > 1.2 * np.hypot(*laminar.force(place, velocity, 300.0))

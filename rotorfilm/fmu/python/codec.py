@@ -31,7 +31,7 @@ def encode(value: Any, name: str = "model") -> Any:
     ----------
     value : Any
         A number, bool, string, None, tuple, list, numpy array of numbers, a function from the top of a
-        module, a member of an enumeration, or a dataclass of such values.
+        module, a member of an enumeration, or a dataclass or named tuple of such values.
     name : str
         What messages call the value, as `model.film.rupture`.
 
@@ -52,8 +52,8 @@ def encode(value: Any, name: str = "model") -> Any:
         return {"tuple": _encode_items(value, name)}
     if isinstance(value, np.ndarray):
         return _encode_array(value, name)
-    if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        return _encode_dataclass(value, name)
+    if hasattr(value, "_fields") or (dataclasses.is_dataclass(value) and not isinstance(value, type)):
+        return _encode_fields(value, name)
     if isinstance(value, FunctionType):
         return _encode_function(value, name)
     if isinstance(value, Enum):
@@ -119,7 +119,7 @@ def _encode_array(array: np.ndarray, name: str) -> dict[str, Any]:
     }
 
 
-def _encode_dataclass(value: Any, name: str) -> dict[str, Any]:
+def _encode_fields(value: Any, name: str) -> dict[str, Any]:
     value = value.portable() if hasattr(value, "portable") else value
     cls = type(value)
     if cls.__module__ == "__main__" or "<locals>" in cls.__qualname__:
@@ -127,12 +127,11 @@ def _encode_dataclass(value: Any, name: str) -> dict[str, Any]:
             f"{name} must be of a class defined at the top of an importable module, because the FMU carries "
             f"that module's source; got {cls.__module__}.{cls.__qualname__}"
         )
-    # Fields outside __init__ follow from the others in __post_init__.
-    fields = {
-        field.name: encode(getattr(value, field.name), f"{name}.{field.name}")
-        for field in dataclasses.fields(value)
-        if field.init
-    }
+    if isinstance(value, tuple):
+        names = value._fields  # type: ignore[attr-defined]
+    else:  # fields outside __init__ follow from the others in __post_init__
+        names = tuple(field.name for field in dataclasses.fields(value) if field.init)
+    fields = {field: encode(getattr(value, field), f"{name}.{field}") for field in names}
     return {"class": f"{cls.__module__}:{cls.__qualname__}", "fields": fields}
 
 
