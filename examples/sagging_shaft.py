@@ -75,7 +75,9 @@ for (name, level), mark in zip(levels.items(), ("o", "s", "D"), strict=True):
     times = cost(level, 3 if level is full else 20000)
     right.loglog(times, errors[name][4], mark, label=name)
     print(f"{name}: {times:.3g} times the time of the aligned map")
-right.set(xlabel="CPU time of a force over that of the aligned map [1]", title="at a share of 0.36", xlim=(1, 1e5))
+right.set(
+    xlabel="CPU time of a force over that of the aligned map [1]", title="at a share of 0.36", xlim=(1, 1e5)
+)
 right.legend()
 right.grid(alpha=0.3)
 figure.savefig("sagging_shaft.png")

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -21,6 +23,7 @@ from ..core.answers import (
 )
 from ..core.errors import AbsentError
 from ..core.model import Array
+from ..core.port import Reaction
 from ..core.results import Coefficients
 from ..rotors.shaft_rotor import ShaftModel, shaft_models
 from ..rotors.structure import freedom_rows
@@ -178,25 +181,32 @@ class ShaftSpeedRung(shaft_films.ShaftRung):
         A tilt changes the slope of a growth over the speed too, so the speed is found there, by secants.
         """
         whirl: speed_events.Whirl = found.solution.whirls[0]
-        rate, speed, rotor = self.rate(whirl), whirl.at.speed, self.model.finer
-        mesh = self._corrected(whirl, rate, trusted=True)
-        value, shape = whirl.value, self.model.lifted(whirl.right)
+        mesh = self._corrected(whirl, self.rate(whirl), trusted=True)
+        near = self.again(found, self.films.rich, mesh.speed, NEAR_TILT)
+        error, shared = (abs(near - one) / whirl.at.speed for one in (whirl.at.speed, mesh.speed))
+        doubt = mesh.doubt or self._missed(near * (1.0 - 2.0 * error))
+        method = f"secants, {len(self.model.finer.elements)} elements, {self.films.rich_name}"
+        work = {WorkUnit(f"speeds for {self.name}"): 1}
+        return ErrorEstimate(error + mesh.noise, method, work, doubt=doubt, shared=shared)
+
+    def again(self, found: RungResult, bearings: Mapping[str, Reaction], speed: float, near: float) -> float:
+        """Return the speed [rad/s] in other bearings and elements half as long, by secants from a speed.
+
+        They end with a step below the part `near` of the speed.
+        """
+        whirl: speed_events.Whirl = found.solution.whirls[0]
+        rotor, value, shape = self.model.finer, whirl.value, self.model.lifted(whirl.right)
 
         def lead_at(speed: float) -> tuple[float, None]:
             nonlocal value, shape
-            at = rotor_equilibrium(rotor, self.films.rich, speed)
+            at = rotor_equilibrium(rotor, bearings, speed)
             frequency = self.event.frequency(value, speed)
             value, shape, _ = rotor_matrices.whirl_near(rotor.structure, at, frequency, value, shape)
             return self.event.lead(value, speed), None
 
-        near = speed_events.secant_speed(
-            lead_at, mesh.speed, rate, near=NEAR_TILT, farthest=FARTHEST, most=RESTS
-        )
-        error, shared = (abs(near.speed - one) / speed for one in (speed, mesh.speed))
-        doubt = mesh.doubt or self._missed(near.speed * (1.0 - 2.0 * error))
-        method = f"secants, {len(rotor.elements)} elements, {self.films.rich_name}"
-        work = {WorkUnit(f"speeds for {self.name}"): 1}
-        return ErrorEstimate(error + mesh.noise, method, work, doubt=doubt, shared=shared)
+        rate = self.rate(whirl)
+        secants = partial(speed_events.secant_speed, farthest=FARTHEST, most=RESTS)
+        return secants(lead_at, speed, rate, near=near).speed
 
     @property
     def shares(self) -> object:

@@ -36,6 +36,9 @@ if TYPE_CHECKING:
 WHOLE_STEP = 1.35
 """The way from a laminar place to the turbulent one over the first step, 70 % of it."""
 
+NEAR_COARSE = 0.01
+"""Change of a speed at which its search on turbulent films ends: coarse grids jump from cell to cell."""
+
 BEYOND = "a laminar film above the onset of turbulence meets no tolerance"
 
 TRANSITION = "what the band of transition changes"
@@ -200,9 +203,17 @@ def turbulent_shaft(scene: Scene, rung: Any, ladder: Ladder) -> Ladder:
         base = on({name: journals[name].turbulence for name in effects}, stress=False)
         return rung.distance(base, on(effects, stress=stress))
 
+    def again() -> float | None:
+        # From laminar to turbulent a speed moves so far that K and C change with it.
+        rich = {name: replace(quick(journals[name]), turbulence=one) for name, one in films.richer.items()}
+        bearings, start = {**rung.films.reaction, **rich}, found().value
+        return quiet(lambda: rung.distance(start, rung.again(found(), bearings, start, NEAR_COARSE)))
+
     def step() -> ErrorEstimate:
         beyond = films.laminar and left_laminar(scene, rung.rest(found()).speed)
-        return ErrorEstimate(change(films.richer, stress=True), "K and C", doubt=BEYOND if beyond else "")
+        far = again() if films.laminar and hasattr(rung, "again") else None
+        error = far if (far or 0.0) > 2.0 * NEAR_COARSE else change(films.richer, stress=True)
+        return ErrorEstimate(error, "K and C", doubt=BEYOND if beyond else "")
 
     bands = {name: other_band(effect) for name, effect in films.own.items()}
     return films.counted(ladder, step, quiet(lambda: change(bands, stress=False)) if bands else None)

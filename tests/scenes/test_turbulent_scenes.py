@@ -277,6 +277,36 @@ def test_a_laminar_shaft_above_the_onset_meets_no_tolerance_and_knows_its_error(
     assert below.met
 
 
+STIFF = """
+schema = 1
+[shaft]
+material = {{ young_modulus = "210 GPa", shear_modulus = "80 GPa", density = 7850 }}
+elements = [{{ length = 5.0, outer_diameter = 0.75, pieces = 2 }}]
+disks = [{{ node = 1, width = "1 m", outer_diameter = 1.6 }}]
+speeds = {{ first = "60 rad/s", last = "700 rad/s", count = 3 }}
+bearings = [
+    {{ name = "a", node = 0, journal = {{ {size}, turbulence = {choice} }} }},
+    {{ name = "b", node = 2, journal = {{ {size}, turbulence = {choice} }} }},
+]
+[lubricant]
+density = 855
+"""
+SHORT = 'radius = "250 mm", length = "215 mm", clearance = "0.45 mm", viscosity = "0.015 Pa s"'
+
+
+def test_a_laminar_threshold_far_from_the_turbulent_one_knows_its_error():
+    """From 448 rad/s down to 397; the change of the growth over its slope would be ten times as much."""
+    further = QUESTION.format(quantity="whirl_threshold", tolerance=20)
+    laminar, own = (
+        quietly(parse_scene(STIFF.format(size=SHORT, choice=choice) + further, "case.toml").ask)
+        for choice in ('"none"', '"auto"')
+    )
+    truth = abs(laminar.value / own.value - 1.0)
+    assert not laminar.met
+    assert truth > 0.1
+    assert 0.5 * truth < laminar.error_estimate < 2.0 * truth
+
+
 @pytest.mark.long
 def test_a_threshold_in_a_jump_of_a_film_on_a_grid_is_found():
     """Stiffness and damping jump there by 0.1 %; `rotor_threshold` is another search, on all coordinates."""
