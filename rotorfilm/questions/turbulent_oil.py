@@ -211,8 +211,8 @@ def turbulent_shaft(scene: Scene, rung: Any, ladder: Ladder) -> Ladder:
 
     def step() -> ErrorEstimate:
         beyond = films.laminar and left_laminar(scene, rung.rest(found()).speed)
-        far = again() if films.laminar and hasattr(rung, "again") else None
-        error = far if (far or 0.0) > 2.0 * NEAR_COARSE else change(films.richer, stress=True)
+        far = (again() if films.laminar and hasattr(rung, "again") else None) or 0.0
+        error = far if far > 2.0 * NEAR_COARSE else change(films.richer, stress=True)
         return ErrorEstimate(error, "K and C", doubt=BEYOND if beyond else "")
 
     bands = {name: other_band(effect) for name, effect in films.own.items()}
