@@ -254,6 +254,8 @@ class FilmGeometry:
 
     def openings(self) -> tuple[Span, ...]:
         """Return grooves, pockets and gaps between pads in the order of their start, in [0, 2 pi)."""
+        if not (self.grooves or self.pockets or self.pads):
+            return ()
         fed = [(g, 1.0) for g in self.grooves] + [(p, p.share) for p in self.pockets]
         grooves = [Span((g.center - 0.5 * g.width) % TURN, g.width, self.supply, share) for g, share in fed]
         spans = sorted([*grooves, *_gaps(self.pads)], key=lambda span: span.start)

@@ -17,6 +17,7 @@ from abc import abstractmethod
 from collections.abc import Callable, Mapping
 from ctypes import addressof
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple, Protocol, TypeVar, cast, runtime_checkable
 
 import numpy as np
@@ -621,8 +622,8 @@ class FilmLosses(NamedTuple):
         Sigma of the film that carries pressure.
     shear_streamers : ndarray, shape (...) [1]
         Sigma of the streamers in the ruptured zone.
-    shear_gap : ndarray, shape (...) [1]
-        Sigma of a gap that is full all around, except in the openings.
+    gap : callable
+        It returns `shear_gap`, shape (...) [1], Sigma of a gap that is full all around, except in the openings.
     side_flow : ndarray, shape (...) [1/s]
         Flow out of both ends of the film / (clearance radius length), without that straight out of openings.
     inflow : ndarray, shape (openings, ...) [1/s]
@@ -637,7 +638,7 @@ class FilmLosses(NamedTuple):
 
     shear_film: Array
     shear_streamers: Array
-    shear_gap: Array
+    gap: Callable[[], Array]
     side_flow: Array
     inflow: Array
     arriving: Array
@@ -648,6 +649,11 @@ class FilmLosses(NamedTuple):
         """Sigma of film and streamers [1], shape (...)."""
         return self.shear_film + self.shear_streamers
 
+    @property
+    def shear_gap(self) -> Array:
+        """Sigma of a gap that is full all around [1], shape (...)."""
+        return self.gap()
+
 
 def kernel_losses(
     kernel: LossKernel, eccentricity: Array, source: Array, geometry: FilmGeometry | None = None
@@ -657,7 +663,7 @@ def kernel_losses(
     batch = kernel.losses(eccentricity.reshape(2, -1), source.reshape(2, -1))
     film, streamers, flow = batch.losses.reshape(3, *shape)
     none = np.empty((0, *shape))
-    gap = gap_shear(eccentricity, geometry or FilmGeometry())
+    gap = partial(gap_shear, eccentricity, geometry or FilmGeometry())
     return FilmLosses(film, streamers, gap, flow, none, none, batch.slopes.reshape(3, 4, *shape))
 
 

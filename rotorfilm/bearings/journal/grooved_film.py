@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -164,8 +164,8 @@ class GroovedMapFilm(KernelFilm):
         places = [nearest(aligned.grooves, middle) for middle in middles]
         flows = kernel.flows(flat[0], along.ravel())[:, places].reshape(2, -1, *e.shape[1:])
         found = kernel_losses(kernel, e, w, self.geometry)
-        gap = gap_shear(e, self.geometry, self.mobility)
-        return found._replace(shear_gap=gap, inflow=flows[0], arriving=flows[1])
+        gap = partial(gap_shear, e, self.geometry, self.mobility)
+        return found._replace(gap=gap, inflow=flows[0], arriving=flows[1])
 
     def loss_kernel(self, slenderness: float) -> LossKernel:
         """Return shear and flow of the map in compiled code; see `FilmOptions`."""

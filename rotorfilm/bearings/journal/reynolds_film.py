@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import ClassVar
 
 import numpy as np
@@ -185,7 +185,7 @@ class ReynoldsFilm(KernelFilm):
         film, streamers, flow = (each.reshape(shape) for each in (film, streamers, flow))
         eased = self.mobility
         grown = None if eased is None else eased.at_rate(along, self.reynolds_scale).reshape(shape)
-        gap = gap_shear(e, self.geometry, eased, grown)
+        gap = partial(gap_shear, e, self.geometry, eased, grown)
         return FilmLosses(film, streamers, gap, flow, inflow, arriving)
 
     def grids(self, slenderness: float) -> tuple[Spans, tuple[Grid, ...]]:
