@@ -16,8 +16,8 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy import sparse
-from scipy.linalg import cho_solve_banded, cholesky_banded, lu_factor, lu_solve
-from scipy.linalg.lapack import zgbtrf, zgbtrs
+from scipy.linalg import cho_solve_banded, cholesky_banded
+from scipy.linalg.lapack import zgbtrf, zgbtrs, zgetrf, zgetrs
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
@@ -113,13 +113,13 @@ class BandedFactor:
 def lu_solver(matrix: Any) -> Callable[..., np.ndarray]:
     """Return the function of a load (N,), and adjoint=False, that solves with a factored matrix.
 
-    With `adjoint` it is the conjugate transpose that is solved; a sparse matrix may be complex.
+    With `adjoint` it is the conjugate transpose that is solved. The answer is complex.
     """
     if sparse.issparse(matrix):
         return BandedFactor.of(matrix).solve
     tally("factorizations")
-    factor = lu_factor(matrix, check_finite=False)
-    return lambda load, adjoint=False: np.asarray(lu_solve(factor, load, trans=2 if adjoint else 0))
+    factor, pivots, _ = zgetrf(matrix)
+    return lambda load, adjoint=False: zgetrs(factor, pivots, load, trans=2 if adjoint else 0)[0]
 
 
 def band_order(matrix: Any) -> Array:

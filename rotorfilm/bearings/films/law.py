@@ -623,7 +623,7 @@ class FilmLosses(NamedTuple):
     shear_streamers : ndarray, shape (...) [1]
         Sigma of the streamers in the ruptured zone.
     gap : callable
-        It returns `shear_gap`, shape (...) [1], Sigma of a gap that is full all around, except in the openings.
+        It returns `shear_gap`, Sigma of a gap that is full all around, except in the openings.
     side_flow : ndarray, shape (...) [1/s]
         Flow out of both ends of the film / (clearance radius length), without that straight out of openings.
     inflow : ndarray, shape (openings, ...) [1/s]
