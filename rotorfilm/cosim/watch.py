@@ -360,7 +360,8 @@ class Watch:
         elif ratio > EARLY * limit:
             self._warn(
                 f"at t = {t:.6g} s macro_step * damping / local mass is {ratio:.3g}, near or beyond the "
-                f"stability limit {limit:.3g} of {self._scheme.label}: shorten macro_step or take scheme=SIExp3()"
+                f"stability limit {limit:.3g} of {self._scheme.label}: shorten macro_step or take "
+                "scheme=SIExp3()"
             )
 
     def _warn(self, message: str) -> None:
