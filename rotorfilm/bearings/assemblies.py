@@ -373,7 +373,7 @@ class Parallel(SharedReaction):
     def force_along(
         self, position: Array, velocity: Array, acceleration: Array, speed: ArrayLike = 0.0
     ) -> Array:
-        """Return the force in a motion with that of the added masses, shape (n, ...); see `core.port`."""
+        """Return the force during a motion, with the inertia of added masses, (n, ...); see `core.port`."""
         total = np.zeros(position.shape)
         for one, rows, _, _ in self._places:
             total[rows] += force_along(one, position[rows], velocity[rows], acceleration[rows], speed)

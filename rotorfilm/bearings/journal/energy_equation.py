@@ -142,7 +142,7 @@ class BushRing:
         return float(outside / (1.0 + resistance * outside))
 
     def wave_transfer(self, radius: float, waves: Array) -> Array:
-        """Return D_n [W/(m^2 K)] of n = 1, 2, ... waves around the bore, of their shape."""
+        """Return D_n [W/(m^2 K)] for n = 1, 2, ... waves around the bore, of the shape of n."""
         biot = self.transfer * self.outer_radius / self.conductivity
         sq = (waves - biot) / (waves + biot) * (radius / self.outer_radius) ** (2.0 * waves)
         return np.asarray(self.conductivity * waves / radius * (1.0 - sq) / (1.0 + sq))

@@ -24,7 +24,7 @@ _ACROSS, _COLUMNS = slice(0, 2), [0, 1, 4, 5, 8]
 class HeldTilt(StaticReaction):
     """A journal bearing whose journal keeps a given tilt: a Reaction to x and y.
 
-    The force is that of the level of the `journal`. Contact and least film are those of the whole length.
+    The force is computed at the tilt level of the `journal`. Contact and least film include the whole length.
 
     Parameters
     ----------

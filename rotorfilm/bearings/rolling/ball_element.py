@@ -607,7 +607,7 @@ class EllipticContact:
         return kappa * cube ** (1.0 / 3.0), cube ** (1.0 / 3.0)
 
     def friction_lever(self, load: float) -> float:
-        """Return 3/8 a E(m) [m] under a load [N]: the moment of friction in pure spin, over its force."""
+        """Return 3/8 a E(m) [m] under a load [N]: friction moment in pure spin over friction force."""
         return 0.375 * self.half_axes(load)[0] * self.integrals.second
 
     def pressure(self, load: float) -> float:
