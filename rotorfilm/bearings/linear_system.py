@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -143,14 +143,6 @@ class FrequencyDependentReaction:
             )
         if self.band is not None:
             require_rising("band", self.band, least=2)
-
-    def __eq__(self, other: object) -> bool:
-        if type(other) is not type(self):
-            return False
-        return all(np.array_equal(getattr(self, f.name), getattr(other, f.name)) for f in fields(self))
-
-    def __hash__(self) -> int:
-        return hash((self.freedoms, self._matrices.A.tobytes(), self._matrices.C.tobytes()))
 
     @classmethod
     def from_system(

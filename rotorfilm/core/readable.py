@@ -127,6 +127,55 @@ class Tabled:
         return self.to_table().to_json()
 
 
+# Equality of inputs and results: that of their fields, arrays number by number.
+
+
+HASHED = 16
+"""Numbers of an array that its hash depends on."""
+
+
+def compared_by_value(cls: type) -> None:
+    """Let a dataclass that compares its fields do so where they are arrays, and have a hash with them."""
+    cls.__eq__ = _equal  # type: ignore[method-assign, assignment]
+    cls.__hash__ = _hash  # type: ignore[method-assign, assignment]
+
+
+def _equal(self: Any, other: object) -> Any:
+    if self is other:
+        return True
+    if other.__class__ is not self.__class__ or not self.__dataclass_params__.eq:
+        return NotImplemented
+    return all(same(getattr(self, one.name), getattr(other, one.name)) for one in fields(self) if one.compare)
+
+
+def same(one: Any, other: Any) -> bool:
+    """Return whether two values are equal, with arrays in them number by number."""
+    if one is other:
+        return True
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        return np.array_equal(one, other)
+    if isinstance(one, tuple | list) and isinstance(other, type(one)):
+        return len(one) == len(other) and all(map(same, one, other))
+    if isinstance(one, Mapping) and isinstance(other, Mapping):
+        return one.keys() == other.keys() and all(same(one[name], other[name]) for name in one)
+    return bool(one == other)
+
+
+def _hash(self: Any) -> int:
+    if not self.__dataclass_params__.eq:
+        return object.__hash__(self)
+    return hash(tuple(_hashed(getattr(self, one.name)) for one in fields(self) if one.compare))
+
+
+def _hashed(value: Any) -> Any:
+    """Return what has the hash of a value; that of an array depends on its first numbers."""
+    if isinstance(value, np.ndarray):
+        return value.shape, tuple(value.flat[:HASHED].tolist())
+    if isinstance(value, tuple | list):
+        return tuple(map(_hashed, value))
+    return frozenset(value) if isinstance(value, Mapping) else value
+
+
 class Readable(Tabled):
     """A result that people, notebooks and tables read with units; its docstring says which.
 
@@ -146,6 +195,7 @@ class Readable(Tabled):
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
         cls.__repr__ = Readable.__repr__  # type: ignore[method-assign]  # a dataclass keeps what is there
+        compared_by_value(cls)
 
     def _own_units(self) -> Mapping[str, str]:
         """Return units that only the result itself knows, by the name of the field or of the entry in it."""
@@ -302,6 +352,8 @@ def as_data_sheet(cls: type[T]) -> type[T]:
     def pretty(self: Any, printer: Any, cycle: bool) -> None:
         printer.text("..." if cycle else str(self))
 
+    if any("rray" in str(one.type) for one in fields(cls)):  # type: ignore[arg-type]
+        compared_by_value(cls)
     cls.__str__ = text  # type: ignore[method-assign]
     cls._repr_pretty_ = pretty  # type: ignore[attr-defined]
     cls._repr_html_ = lambda self: printed_html(self, sheet_rows(self), sheet_pages(self))  # type: ignore[attr-defined]
