@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotorfilm import ContactError, FilmContactError, InputError, RotorfilmError, ValidityWarning
+from rotorfilm import ContactError, FilmContactError, InputError, RotorfilmError, ValidityWarning, equilibrium
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
 from rotorfilm.core import errors
 from rotorfilm.core.errors import (
@@ -132,3 +132,10 @@ def test_messages_show_scalars_of_numpy_as_plain_numbers(value, shown):
     with pytest.warns(ValidityWarning) as warned:
         errors.warn_user(f"got {value!r}")
     assert str(warned[0].message) == f"got {shown}"
+
+
+def test_truth_values_are_no_numbers():
+    bearing = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02)
+    for load in ([0, True], [False, -1e3], np.array([True, True])):
+        with pytest.raises(InputError, match="load must be numbers, and not True or False"):
+            equilibrium(bearing, load, 300.0)

@@ -35,6 +35,7 @@ from ..rotors import MountedRotor
 from ..rotors.structure import prefixed, station_names
 from .compiled_march import highest_speed
 from .compiled_rotor import CONTACT_GAP, is_linear
+from .force_calls import of_station
 
 STEPS_A_TURN = 384
 """Steps in a turn of the shaft at its highest speed."""
@@ -95,12 +96,14 @@ def simulate_steps(
         ahead = loop.alike(before, now, progress.ahead(now.time))
         stretch, films_now, failure = loop.march(before, now, [step.length for step in ahead])
         gaps = stretch.gaps(loop.clearances)
-        wall = np.flatnonzero(gaps[1:] <= CONTACT_GAP) + 1
+        wall = np.flatnonzero(gaps[1:].min(axis=1) <= CONTACT_GAP) + 1
         kept = stretch if not wall.size else stretch.until(int(wall[0]))
         error.add(kept.time, kept.motions)
         record.add(kept)
         if wall.size:
-            raise ContactError(f"journal reached the wall at t = {kept.time[-1]:.9g} s", record.trajectory())
+            where = loop.nearest(gaps[wall[0]])
+            text = f"journal{where} reached the wall at t = {kept.time[-1]:.9g} s"
+            raise ContactError(text, record.trajectory())
         if made := len(stretch.time) - 1:
             progress = ahead[made - 1].then
             before, now = stretch.moment(-2, now.films), stretch.moment(-1, films_now)
@@ -108,15 +111,18 @@ def simulate_steps(
             loop.work["restarts"] += 1
             progress = progress._replace(halvings=progress.halvings + 1)
             if progress.halvings > HALVINGS:
-                raise _failed(failure, float(gaps[-1]), record.trajectory()) from failure
+                told = failure, loop.nearest(gaps[-1]), float(gaps[-1].min())
+                raise _failed(*told, record.trajectory()) from failure
     return replace(record.trajectory(), step_error=error.largest)
 
 
-def _failed(failure: Exception, gap: float, partial: Trajectory) -> ContactError | ConvergenceError:
-    """Return what a step that cannot be made means, at a gap of so many clearances."""
+def _failed(
+    failure: Exception, where: str, gap: float, partial: Trajectory
+) -> ContactError | ConvergenceError:
+    """Return what a step that cannot be made means, at a gap of so many clearances in a station."""
     if isinstance(failure, FilmContactError) or gap < AT_WALL:
         return ContactError(
-            f"journal reached the wall, {gap:.3g} of the clearance is left: {failure}", partial
+            f"journal{where} reached the wall, {gap:.3g} of the clearance is left: {failure}", partial
         )
     return ConvergenceError(str(failure), partial)
 
@@ -229,8 +235,8 @@ class Stretch(NamedTuple):
         return Moment(float(self.time[row]), self.states[row], self.rates[row], films, self.outputs[row])
 
     def gaps(self, clearances: Array) -> Array:
-        """Return the least clearance left at any journal, relative to its own, shape (k,) [1]."""
-        return (1.0 - np.hypot(self.motions[..., 0], self.motions[..., 1]) / clearances).min(axis=1)
+        """Return the clearance left at each journal, relative to its own, shape (k, n_films) [1]."""
+        return np.asarray(1.0 - np.hypot(self.motions[..., 0], self.motions[..., 1]) / clearances)
 
 
 class _Record:
@@ -463,6 +469,10 @@ class SteppedLoop:
         rates = np.vstack([now.rate, rates.reshape(states.shape)])
         outputs = np.vstack([now.outputs, answers.reshape(made, len(now.outputs))])
         return Stretch(time, whole, rates, outputs, self.motions(time, whole))
+
+    def nearest(self, gaps: Array) -> str:
+        """Return how a message names the station with the least of the gaps (n_films,)."""
+        return of_station(self.stations[int(np.argmin(gaps))].name)
 
     def motions(self, times: Array, states: Array) -> Array:
         """Return the motion of each journal at some times, shape (k, n_films, 5)."""

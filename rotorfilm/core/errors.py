@@ -183,7 +183,9 @@ def require_tuple(name: str, values: object, *kinds: type) -> None:
 
 
 def require_finite(name: str, value: ArrayLike) -> NDArray[np.float64]:
-    """Return `value` as an array of floats; raise InputError where an entry is not finite."""
+    """Return `value` as an array of floats; raise InputError where an entry is no finite number."""
+    if _has_truth(value):
+        raise InputError(f"{name} must be numbers, and not True or False, got {brief(value)}")
     try:
         array = np.asarray(value, dtype=float)
     except (TypeError, ValueError):
@@ -287,6 +289,17 @@ def _is_ignored(category: type[Warning]) -> bool:
         if message is None and module is None and issubclass(category, kind)
     )
     return next(actions, "") == "ignore"
+
+
+PLAIN = {float, int, np.float64}
+
+
+def _has_truth(value: object) -> bool:
+    """Return whether there is True or False among numbers, which count as 1 and 0 in arrays."""
+    if isinstance(value, list | tuple):
+        kinds = set(map(type, value))
+        return not kinds <= PLAIN and any(map(_has_truth, value))
+    return isinstance(value, bool | np.bool_) or (isinstance(value, np.ndarray) and value.dtype == bool)
 
 
 def _is_number(value: object) -> bool:

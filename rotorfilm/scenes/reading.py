@@ -346,12 +346,13 @@ def _located(where: str, message: str, readers: Mapping[str, Reader], values: Ma
     """Return a message after the key that it is about, or after the table where it is about no one key."""
     begins = _ARGUMENT.match(message)
     name = begins[0] if begins else ""
+    doubled = {one: twice for one, reader in readers.items() if (twice := twice_of(reader)) in values}
+    if name in doubled:
+        message = f"{doubled[name]} is twice the {name}, and {message}"
+    told = [f"; {doubled[one]} is twice the {one}" for one in doubled if one != name and one in message]
     if name not in readers:
-        return f"{where.removesuffix('.').removesuffix(': ')}: {message}"
-    reader = readers[name]
-    if twice_of(reader) and twice_of(reader) in values:
-        message = f"{twice_of(reader)} is twice the {name}, and {message}"
-    return f"{where}{message}{_as_written(name, reader, values)}"
+        return f"{where.removesuffix('.').removesuffix(': ')}: {message}{''.join(told)}"
+    return f"{where}{message}{_as_written(name, readers[name], values)}{''.join(told)}"
 
 
 def _as_written(name: str, reader: Reader, values: Mapping[str, Any]) -> str:

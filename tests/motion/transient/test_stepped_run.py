@@ -10,6 +10,7 @@ import pytest
 from rotorfilm import (
     ContactError,
     ConvergenceError,
+    Disk,
     ElasticMaterial,
     Groove,
     InputError,
@@ -270,6 +271,18 @@ class InPython(JFOFilm):
 
     def attempt(self, state, u, dt, near=None):
         return super().attempt(state, u, dt, near)
+
+
+@pytest.mark.parametrize("kind", ["compiled", "in python"])
+def test_the_wall_names_the_station_of_a_shaft(kind):
+    steel = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
+    pieces = ShaftElement(length=0.5, outer_diameter=0.1, material=steel).split(2)
+    ends = (Station(node=0, name="left"), Station(node=2, name="right"))
+    heavy = Disk(node=2, mass=1e5)
+    shaft = ShaftRotor(elements=pieces, disks=(heavy,), stations=ends, speed=omega)
+    film = (JFOFilm if kind == "compiled" else InPython)(bearing=BEARING, cells=(24, 4))
+    with pytest.raises(ContactError, match="journal of 'right' reached the wall"):
+        simulate(shaft, {"left": film, "right": film}, duration=TURN, samples=9, max_step=TURN / 32)
 
 
 def test_the_compiled_loop_makes_the_steps_of_the_loop_in_python(rest):
