@@ -296,6 +296,32 @@ class HarmonicBasis(NamedTuple):
     back: Array
 
 
+def at_start(
+    series: Array,
+    frequency: float,
+    forces: Callable[[Array, Array], Array],
+    answer: Callable[[int, Complex], Any],
+) -> Any:
+    """Return the state of a rotor at phase 0 of an orbit: the sum of its answers to all harmonics.
+
+    Parameters
+    ----------
+    series : ndarray, shape (rows, 2 H + 1)
+        Orbit.
+    frequency : float [rad/s]
+    forces : callable
+        Takes places and rates of the rows (rows, n), and returns forces (m, n).
+    answer : callable
+        Takes the number k of a harmonic and the amplitudes a (m,) of its force Re a exp(i k phase), and
+        returns the state that it makes at phase 0.
+    """
+    harmonics = series.shape[1] // 2
+    at = basis(harmonics, 4 * harmonics + 8)
+    force = forces(series @ at.values.T, frequency * (series @ at.slopes.T)) @ at.back.T
+    waves = [force[:, 0], *(force[:, 1 : harmonics + 1] - 1j * force[:, harmonics + 1 :]).T]
+    return sum(answer(k, wave) for k, wave in enumerate(waves))
+
+
 @lru_cache(maxsize=32)
 def basis(harmonics: int, samples: int) -> HarmonicBasis:
     """Return the series at equal distance in the phase."""

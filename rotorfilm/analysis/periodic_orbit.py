@@ -442,17 +442,14 @@ class WholeFilms(harmonic_balance.ModalFilms):
 
     def state(self, series: Array, frequency: float, periods: int) -> Array:
         """Return the state (2 N,) at phase 0 of an orbit."""
-        harmonics = series.shape[1] // 2
-        at = harmonic_balance.basis(harmonics, 4 * harmonics + 8)
-        force = self.forces(series @ at.values.T, frequency * (series @ at.slopes.T)) @ at.back.T
-        place = self.motion.solve(0.0, (self.rows.T @ force[:, 0] + self.whole.weight)[:, None]).real[:, 0]
-        rate = np.zeros_like(place)
-        for k in range(1, harmonics + 1):
-            push = self.rows.T @ (force[:, k] - 1j * force[:, harmonics + k])
-            push = push + self._turning if k == periods else push
-            moved = self.motion.solve(1j * k * frequency, push[:, None])[:, 0]
-            place, rate = place + moved.real, rate - k * frequency * moved.imag
-        return np.concatenate([place, rate])
+
+        def answer(k: int, force: Complex) -> Array:
+            beside = 0.0 if k and k != periods else self._turning if k else self.whole.weight
+            pole = 1j * k * frequency
+            moved = self.motion.solve(pole, (self.rows.T @ force + beside)[:, None])[:, 0]
+            return np.concatenate([moved, pole * moved]).real
+
+        return np.asarray(harmonic_balance.at_start(series, frequency, self.forces, answer))
 
 
 # Floquet multipliers of a periodic orbit: the monodromy matrix, integrated with the slopes of the films.
@@ -516,25 +513,18 @@ def multipliers(modal: ModalRotor, series: Array, frequency: float, known_to: fl
 
 def state_at_start(modal: ModalRotor, series: Array, frequency: float, periods: int) -> Array:
     """Return the state (2 N,) at phase 0 of an orbit, the whole rotor's."""
-    harmonics = series.shape[1] // 2
-    samples = 4 * harmonics + 8
-    phase = 2.0 * np.pi * np.arange(samples) / samples
-    values, rates = harmonic_balance.series_rows(harmonics, phase)
-    force = harmonic_balance.film_forces(modal, series @ values.T, frequency * (series @ rates.T))[0]
-    spectrum = np.fft.rfft(force, axis=1)[:, : harmonics + 1] / samples
-    total = np.zeros(len(modal.values), dtype=complex)
-    for k in range(harmonics + 1):
+    turning = modal.parts.speed**2 * np.array([1.0, -1.0j * np.sign(modal.parts.speed)])
+
+    def answer(k: int, force: Complex) -> Complex:
+        push = np.concatenate([force, turning * (k > 0 and k == periods)])
         pole = 1j * k * frequency
-        push = modal.push[:, :-2] @ spectrum[:, k]
-        back = modal.push[:, :-2] @ spectrum[:, k].conj()
-        if k and k == periods:
-            pair = 0.5 * modal.parts.speed**2 * np.array([1.0, -1.0j * np.sign(modal.parts.speed)])
-            push = push + modal.push[:, -2:] @ pair
-            back = back + modal.push[:, -2:] @ pair.conj()
-        total += push / (pole - modal.values)
-        if k:
-            total += back / (-pole - modal.values)
-    return modal.physical(total)
+        ways = (modal.push @ one / (s - modal.values) for one, s in ((push, pole), (push.conj(), -pole)))
+        return np.asarray(0.5 * sum(ways))
+
+    def forces(places: Array, rates: Array) -> Array:
+        return harmonic_balance.film_forces(modal, places, rates)[0]
+
+    return modal.physical(harmonic_balance.at_start(series, frequency, forces, answer))
 
 
 # Where a mounted rotor rests, and its linear matrix there.

@@ -33,7 +33,7 @@ from ..rotors.structure import NOMINAL_LENGTH, station_name
 from .compiled_march import STAGES, ModalArrays, StepTable, radau_scheme
 from .compiled_rotor import LARGEST_CONDITION, Complex, modes
 from .equilibrium import equilibrium
-from .harmonic_balance import Receptance, basis, series_rows, with_wave
+from .harmonic_balance import Receptance, at_start, series_rows, with_wave
 from .rotor_equilibrium import rotor_equilibrium
 
 STEPS_PER_HARMONIC, LEAST_STEPS = 2, 64
@@ -354,19 +354,13 @@ class PortRotor:
 
     def state(self, series: Array, frequency: float, periods: int) -> Array:
         """Return the state (Z,) at phase 0 of an orbit."""
-        harmonics = series.shape[1] // 2
-        samples = basis(harmonics, 4 * harmonics + 8)
-        force = (
-            self.forces(series @ samples.values.T, frequency * (series @ samples.slopes.T)) @ samples.back.T
-        )
         small = self.small
-        total = self._solved(0.0, small.push @ force[:, 0] + small.held).real
-        for k in range(1, harmonics + 1):
-            push = small.push @ (force[:, k] - 1j * force[:, harmonics + k])
-            if k == periods:
-                push = push + self.unbalanced * small.turning
-            total = total + self._solved(1j * k * frequency, push).real
-        return np.asarray(total)
+
+        def answer(k: int, force: Complex) -> Array:
+            beside = 0.0 if k and k != periods else self.unbalanced * small.turning if k else small.held
+            return self._solved(1j * k * frequency, small.push @ force + beside).real
+
+        return np.asarray(at_start(series, frequency, self.forces, answer))
 
     def neglected(self, balance: Any, series: Array, frequency: float) -> float:
         """Return 0: it moves in all of its coordinates."""

@@ -140,7 +140,7 @@ def compared_by_value(cls: type) -> None:
     cls.__hash__ = _hash  # type: ignore[method-assign, assignment]
 
 
-def _equal(self: Any, other: object) -> Any:
+def _equal(self: Any, other: Any) -> Any:
     if self is other:
         return True
     if other.__class__ is not self.__class__ or not self.__dataclass_params__.eq:
