@@ -491,12 +491,11 @@ class OilDamperKernel(ResponseKernel):
 
     def masses(self, position: Array, velocity: Array) -> Batch:
         """Return the added mass xx, xy, yy [kg] and its slopes by x, y, vx, vy behind it, shape (3, 5, n)."""
-        states = np.concatenate([position, velocity]).T.tolist()
-        found, statuses = np.empty((len(states), 15)), []
-        for row, state in zip(found, states, strict=True):
-            at = row.ctypes.data
-            places = _Five(*state), at, at + 3 * row.itemsize
-            statuses.append(loops()["rf_oil_damper_mass"](self._reference, *places))
+        states = np.ascontiguousarray(np.concatenate([position, velocity]).T)
+        found, mass = np.empty((len(states), 15)), loops()["rf_oil_damper_mass"]
+        first, answer, size = states.ctypes.data, found.ctypes.data, found.itemsize
+        places = ((first + 4 * size * k, answer + 15 * size * k) for k in range(len(states)))
+        statuses = [mass(self._reference, state, row, row + 3 * size) for state, row in places]
         values = np.concatenate([found[:, :3, None], found[:, 3:].reshape(-1, 3, 4)], axis=2)
         worst = max(statuses, default=Status.OK)
         return Batch(np.moveaxis(values, 0, -1), worst, statuses.index(worst) if statuses else 0)
