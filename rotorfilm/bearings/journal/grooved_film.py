@@ -20,7 +20,7 @@ from ..films.finite_volumes import are_counts, require_cells
 from ..films.geometry import AlignedOpenings, FilmGeometry, aligned_openings, require_mappable
 from ..films.law import FilmLosses, KernelFilm, gap_shear, kernel_losses, require_film, static_rate
 from ..films.map_fit import MapPlan, nine_digits
-from ..films.map_growth import GrowthMap, require_map_law
+from ..films.map_growth import SCALE, GrowthMap, require_map_law
 from ..films.mobility import Mobility, law_of, per_rate, require_same_mobility
 from .groove_map import GrooveMap, GrooveMapTable, Resolution, nearest
 from .map_film import MapFilm
@@ -33,8 +33,11 @@ GROOVED_RANGE = (0.05, 20.0)
 """Length/diameter for which a map can be made; a shorter film turns faster than the nodes can follow."""
 
 
-GROWTH: dict[str, Any] = {"cells": (64, 8), "nodes": (12, 36, 32)}
+GROWTH: dict[str, Any] = {"cells": (64, 8), "nodes": (12, 60, 36)}
 """Cells and nodes of what the Reynolds number adds to a map."""
+
+BANDED: dict[str, Any] = {**GROWTH, "nodes": (12, 48, 28)}
+"""The same with a band of transition, which takes twice as many cells over the Reynolds number."""
 
 
 @quantities
@@ -72,7 +75,8 @@ class GroovedMapFilm(KernelFilm):
         a density the map is over the Reynolds number too, and shear and flow are those of the film on the
         grid.
     reynolds_cells : int
-        Cells over the Reynolds number, where the mobility has a density.
+        Cells over the Reynolds number, where the mobility has a density. Without a band of transition the map
+        has half as many.
     reynolds_scale : float [m3/kg s]
         Radius times clearance over viscosity, set by the bearing.
     table : GrooveMapTable, optional
@@ -91,7 +95,7 @@ class GroovedMapFilm(KernelFilm):
     nodes: tuple[int, int, int] = (12, 72, 48)
     largest_eccentricity_ratio: float = 0.97
     mobility: Mobility | None = None
-    reynolds_cells: int = 24
+    reynolds_cells: int = 32
     reynolds_scale: float = field(default=0.0, repr=False)
     table: GrooveMapTable | None = None
     geometry: FilmGeometry = field(default_factory=FilmGeometry)
@@ -210,8 +214,10 @@ class GroovedMapFilm(KernelFilm):
         laminar = GrooveMap(aligned_openings(self.geometry), nine_digits(slenderness), resolution)
         if law is None or not self.is_grown:
             return laminar
-        coarse = dataclasses.replace(laminar, resolution=resolution._replace(**GROWTH))
-        return GrowthMap(laminar, coarse, law, self.reynolds_cells)
+        smooth, cells = law.scale <= SCALE, self.reynolds_cells
+        grown = resolution._replace(**GROWTH if smooth else BANDED)
+        coarse = dataclasses.replace(laminar, resolution=grown)
+        return GrowthMap(laminar, coarse, law, max(6, cells // 2) if smooth else cells)
 
     def _kernel(self, slenderness: float) -> MapKernel:
         if self.is_grown and self.mobility is not None:
