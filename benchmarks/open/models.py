@@ -145,11 +145,11 @@ def reference(case: dict[str, Any]) -> dict[str, tuple[float, float]]:
     return found
 
 
-def seconds(call: Callable[[], object], times: int = 3) -> float:
-    """Return the least time of the processor of a few calls [s], after one that is not counted."""
+def seconds(call: Callable[[], object]) -> float:
+    """Return the least time of the processor [s] of three or more calls in 0.2 s, after a first one."""
     call()
-    taken = []
-    for _ in range(times):
+    taken: list[float] = []
+    while len(taken) < 3 or sum(taken) < 0.2:
         begin = time.process_time()
         call()
         taken.append(time.process_time() - begin)
