@@ -50,7 +50,7 @@ _SAMPLE = 0.6 + 0.8j  # of the sizes of states and forces, off the axes on which
 
 
 @quantities
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True)
 class FrequencyDependentReaction:
     """A linear reaction with states x to small motion q of the shaft, such as a seal or a magnetic bearing.
 

@@ -131,7 +131,7 @@ class Tabled:
 
 
 HASHED = 16
-"""Numbers of an array that its hash depends on."""
+"""Entries along each axis of an array that its hash depends on."""
 
 
 def compared_by_value(cls: type) -> None:
@@ -154,7 +154,7 @@ def same(one: Any, other: Any) -> bool:
         return True
     if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
         return np.array_equal(one, other)
-    if isinstance(one, tuple | list) and isinstance(other, type(one)):
+    if isinstance(one, tuple | list) and isinstance(other, tuple | list):
         return len(one) == len(other) and all(map(same, one, other))
     if isinstance(one, Mapping) and isinstance(other, Mapping):
         return one.keys() == other.keys() and all(same(one[name], other[name]) for name in one)
@@ -168,11 +168,11 @@ def _hash(self: Any) -> int:
 
 
 def _hashed(value: Any) -> Any:
-    """Return what has the hash of a value; that of an array depends on its first numbers."""
+    """Return what has the hash of a value; that of an array or a list depends on its first entries."""
     if isinstance(value, np.ndarray):
-        return value.shape, tuple(value.flat[:HASHED].tolist())
+        value = value[:HASHED].tolist() if value.ndim else value.item()
     if isinstance(value, tuple | list):
-        return tuple(map(_hashed, value))
+        return tuple(map(_hashed, value[:HASHED]))
     return frozenset(value) if isinstance(value, Mapping) else value
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import rotorfilm as rf
-from rotorfilm.bearings import BallSupport, ContactLaw
+from rotorfilm.bearings import BallSupport, ContactLaw, FrequencyDependentReaction
 
 BEARING = rf.JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02)
 
@@ -53,3 +53,13 @@ def test_a_shape_is_compared_and_a_sign_of_zero_is_not():
     at = rf.equilibrium(BEARING, [0.0, -900.0], 300.0)
     assert at == replace(at)
     assert at != replace(at, position=at.position[:1])
+
+
+def test_a_list_is_the_array_of_its_numbers():
+    one, system = [[-300.0]], {"C": [[[1.0], [0.0]]], "D": [np.eye(2)], "speeds": [100.0]}
+    made = [
+        FrequencyDependentReaction(A=[one], B=[[[1.0, 0.0]]], **system, band=kind([1.0, 500.0]))
+        for kind in (list, tuple, np.array)
+    ]
+    assert made[0] == made[1] == made[2]
+    assert len(set(made)) == 1
