@@ -352,7 +352,8 @@ def as_data_sheet(cls: type[T]) -> type[T]:
     def pretty(self: Any, printer: Any, cycle: bool) -> None:
         printer.text("..." if cycle else str(self))
 
-    if any("rray" in str(one.type) for one in fields(cls)):  # type: ignore[arg-type]
+    made: Any = cls
+    if made.__dataclass_params__.eq and any("rray" in str(one.type) for one in fields(made)):
         compared_by_value(cls)
     cls.__str__ = text  # type: ignore[method-assign]
     cls._repr_pretty_ = pretty  # type: ignore[attr-defined]

@@ -345,7 +345,7 @@ def test_interrupted_run_keeps_what_it_has_and_is_resumed(coarse, resting, tmp_p
     with pytest.raises(InputError, match=r"path must be a run of PointContact.*, got '.*part\.nc'"):
         contact(16).load(tmp_path / "part.nc")
     with pytest.raises(
-        InputError, match=r"start must be gone on with as it was begun, by BallMotion\(W=0\.5"
+        InputError, match=r"start must be continued with the arguments that it began with, BallMotion\(W=0\.5"
     ):
         coarse.simulate(read, duration=1.0, W=0.6, load=load, control=control)
     with pytest.raises(InputError, match="that is not complete, got a complete run"):

@@ -239,7 +239,7 @@ def test_short_film_beyond_its_range_warns_with_its_error():
         long = PorousDamper(**DIMENSIONS | {"length": 0.05}, extent=FullFilm(), film=FiniteSqueeze())
     C = np.pi * 0.01 * 0.05 * 500.0**3
     assert C / damping_at_rest(long) == pytest.approx(1.0 + 0.10, abs=2e-3)
-    with pytest.warns(ValidityWarning, match="thickness must not exceed 0.5 radii"):
+    with pytest.warns(ValidityWarning, match="thickness must not exceed 0.5 of the radius"):
         replace(PI, cage=replace(CAGE, thickness=0.03))
 
 

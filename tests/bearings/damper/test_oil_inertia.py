@@ -178,7 +178,7 @@ def test_the_range_of_the_inertia_is_told():
         ({"density": np.nan}, "density must be"),
         (
             {"density": OIL, "cage": rf.PorousCage(thickness=2e-3, permeability=1e-14)},
-            "density must be left out",
+            "density must not be given with a porous cage",
         ),
         (
             {"density": OIL, "extent": FULL, "film": rf.bearings.PublishedSqueeze()},

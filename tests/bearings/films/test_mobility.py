@@ -348,7 +348,7 @@ def test_impossible_mobilities_are_refused():
         mobility_of(lambda X: (math.nan, 1.0, 1.0, 1.0))
     with pytest.raises(InputError, match="mobility must be a Mobility"):
         PadGridFilm(mobility=thick)
-    with pytest.raises(InputError, match="must be that of a bearing"):
+    with pytest.raises(InputError, match="must belong to a bearing"):
         ReynoldsFilm(mobility=MOVING).force(E, W, 0.6)
 
 

@@ -92,7 +92,7 @@ def test_table_is_built_once_and_again_after_damage(tmp_path):
     )
     assert len(built) == 1
     path.write_bytes(path.read_bytes()[:-9] + b"damaged!!")
-    with pytest.warns(RuntimeWarning, match=r"made again: '.*map\.bin' .* it is damaged"):
+    with pytest.warns(RuntimeWarning, match=r"made again: '.*map\.bin' .* is damaged"):
         assert cached_table(GrooveMapTable, path, build) == some_table()
     assert len(built) == 2
     assert cached_table(GrooveMapTable, path, build) == some_table()

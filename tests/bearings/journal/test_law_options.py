@@ -57,7 +57,7 @@ def test_a_law_with_what_is_required_is_enough():
 
 
 def test_a_law_without_openings_says_so():
-    with pytest.raises(InputError, match="which PlainLaw cannot"):
+    with pytest.raises(InputError, match="got PlainLaw, which cannot"):
         JournalBearing(**DIMENSIONS, film=PlainLaw(), grooves=(GROOVE,))
 
 

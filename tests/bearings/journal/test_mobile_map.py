@@ -121,7 +121,7 @@ def test_impossible_films_are_refused():
         MobileMapFilm(mobility=TURBULENT, nodes=(4, 12, 6))
     with pytest.raises(InputError, match="represent the bearing's geometry"):
         rf.JournalBearing(**SIZE, film=FILM, grooves=(rf.Groove(center=0.0, width=0.3),))
-    with pytest.raises(InputError, match="must be that of a bearing"):
+    with pytest.raises(InputError, match="must belong to a bearing"):
         FILM.force(np.array([0.1, 0.2]), np.array([1.0, 0.0]), 0.8)
 
 
