@@ -56,7 +56,7 @@ def test_a_pad_that_no_warm_film_carries_is_refused_at_its_temperature():
     pads = rf.ThrustBearing(**sizes, step_share=0.47, **OIL, cells=(16, 8))
     load = [-130e3, 0.0, 0.0]
     assert rf.equilibrium(pads.at_temperature(313.15), load, 222.0).minimum_film > 2e-5
-    with pytest.raises(rf.EquilibriumError, match=r"as warm as its own heat makes it, and at \S+ K none"):
+    with pytest.raises(rf.EquilibriumError, match=r"that its own heat warms, but at \S+ K no film"):
         rf.equilibrium(pads, load, 222.0)
 
 
