@@ -147,7 +147,7 @@ def test_a_seal_of_another_length_says_so(tmp_path):
     whole = write_sealed(tmp_path / "a", content, "settings").read_bytes()
     head = whole[len(content) : -32]
     (tmp_path / "a").write_bytes(content[1:] + head + hashlib.sha256(content[1:] + head).digest())
-    with pytest.raises(InputError, match=r"must hold 14 bytes before its seal, got 13"):
+    with pytest.raises(InputError, match=r"must have 14 bytes before its seal, got 13"):
         read_sealed(tmp_path / "a", "settings", "rule")
 
 

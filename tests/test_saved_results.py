@@ -64,7 +64,7 @@ def test_what_is_no_result_and_what_is_damaged_is_refused(tmp_path):
     path = save_result(BEARING, tmp_path / "b.json")
     content = path.read_bytes()
     path.write_bytes(content.replace(b"0.05", b"0.06", 1))
-    with pytest.raises(rf.InputError, match="checksum does not fit"):
+    with pytest.raises(rf.InputError, match="must have the checksum"):
         load_result(path)
     foreign = b'{"=": "object", "module": "os", "name": "system", "of": {}}'
     with pytest.raises(rf.InputError, match=r"path must hold objects of rotorfilm, got os.system"):
