@@ -119,7 +119,7 @@ def test_values_of_keys_are_those_of_a_file_that_has_them(run, scene, tmp_path):
         ("journal.clearence=80 um", "did you mean 'clearance'?"),
         ("jurnal.clearance=80 um", "jurnal is no known key"),
         ("journal.clearance", '--set must be "KEY=VALUE"'),
-        ("journal.clearance.more=1", "journal.clearance.more must be the dotted name of a key in a table of the scene"),
+        ("journal.clearance.more=1", "journal.clearance.more must be the dotted name of a key in a table"),
         ("journal.clearance=80 kg", "quantity must be measured in m"),
         ("journal.clearance=[1", "got '[1'"),
         ("journal.clearance=1\nx = 2", "journal.clearance: unit must be one of"),

@@ -270,7 +270,9 @@ def test_what_has_a_picture_is_listed_once():
     assert drawn - {"HeatedJFOState"} == set(PICTURES) & set(RESULTS)
     assert set(PICTURES) - drawn == {"ShaftRotor", "TabulatedBearing"}
     assert not hasattr(SAMPLES["Equilibrium"], "plot")
-    with pytest.raises(rotorfilm.InputError, match="kind of picture of a Campbell must be one of campbell, log_decrement"):
+    with pytest.raises(
+        rotorfilm.InputError, match="picture of a Campbell must be one of campbell, log_decrement"
+    ):
         SAMPLES["Campbell"].plot("waterfall")
     with pytest.raises(rotorfilm.InputError, match="backend must be one of matplotlib, plotly"):
         SAMPLES["Campbell"].plot(backend="bokeh")

@@ -115,8 +115,8 @@ class DamperSupply:
         pressure = self.supply_pressure - self.cavitation_pressure if kinds or self.submerged else 0.0
         if pressure <= 0.0:
             raise InputError(
-                "a damper must have a supply_pressure above cavitation_pressure, and a groove, holes or an oil "
-                "bath for its oil, or a mass-conserving film runs dry: "
+                "a damper must have a supply_pressure above cavitation_pressure, and a groove, holes or an "
+                "oil bath for its oil, or a mass-conserving film runs dry: "
                 f"give {REMEDY}, got {self!r}"
             )
 
