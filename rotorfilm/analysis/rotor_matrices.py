@@ -274,7 +274,7 @@ def whirl_near(
         moved = abs(found - before)
         # The next step would be shorter by at least as much as this one is than the last.
         foreseen = moved * min(1.0, moved / last)
-        if foreseen < CONVERGED * abs(found) or (step >= PATIENCE and moved < ROUNDED * abs(found)):
+        if foreseen <= CONVERGED * abs(found) or (step >= PATIENCE and moved <= ROUNDED * abs(found)):
             return found, right, left
     raise ConvergenceError(f"the whirl near {value:.6g} rad/s was not found by inverse iteration")
 

@@ -299,7 +299,9 @@ def _has_truth(value: object) -> bool:
     if isinstance(value, list | tuple):
         kinds = set(map(type, value))
         return not kinds <= PLAIN and any(map(_has_truth, value))
-    return isinstance(value, bool | np.bool_) or (isinstance(value, np.ndarray) and value.dtype == bool)
+    if isinstance(value, np.ndarray):
+        return value.dtype == bool or (value.dtype == object and _has_truth(value.ravel().tolist()))
+    return isinstance(value, bool | np.bool_)
 
 
 def _is_number(value: object) -> bool:

@@ -153,12 +153,13 @@ def same(one: Any, other: Any) -> bool:
     if one is other:
         return True
     if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
-        return np.array_equal(one, other)
+        one, other = np.asarray(one), np.asarray(other)
+        return np.array_equal(one, other, equal_nan=one.dtype.kind in "fc" and other.dtype.kind in "fc")
     if isinstance(one, tuple | list) and isinstance(other, tuple | list):
         return len(one) == len(other) and all(map(same, one, other))
     if isinstance(one, Mapping) and isinstance(other, Mapping):
         return one.keys() == other.keys() and all(same(one[name], other[name]) for name in one)
-    return bool(one == other)
+    return bool(one == other or (one != one and other != other))  # NaN stands for the same as NaN
 
 
 def _hash(self: Any) -> int:
@@ -173,6 +174,8 @@ def _hashed(value: Any) -> Any:
         value = value[:HASHED].tolist() if value.ndim else value.item()
     if isinstance(value, tuple | list):
         return tuple(map(_hashed, value[:HASHED]))
+    if isinstance(value, float | complex) and value != value:
+        return None
     return frozenset(value) if isinstance(value, Mapping) else value
 
 

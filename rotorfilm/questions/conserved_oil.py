@@ -321,10 +321,14 @@ def _other(cells: int, least: int) -> int:
 
 
 def _heat_of_balance(question: Any, film: JFOFilm) -> ErrorEstimate:
-    """Return the error by heat of a film of one temperature that conserves its oil."""
+    """Return the error by heat of a film of one temperature that conserves its oil.
+
+    Of tilting pads it is that of their film with Reynolds rupture, with which it agrees.
+    """
+    bearing = film.bearing if tilts(film.bearing) else film
     try:
-        own = uniform_rest(film, question.load, question.speed)
-        steps = HeatSteps(film, own)
+        own = uniform_rest(bearing, question.load, question.speed)
+        steps = HeatSteps(bearing, own)
         found = question.judge.error(own, steps)
     except RotorfilmError as error:
         return ErrorEstimate(math.inf, "not known", doubt=f"its error by heat is not known: {error}")

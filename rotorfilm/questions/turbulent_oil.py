@@ -67,7 +67,7 @@ def turbulent_oil(scene: Scene, question: Any, films: Sequence[FilmCandidate], l
     ladder = _said(ladder, [effect], None if about is None else about.error)
 
     def closer() -> ErrorEstimate:
-        richer = replace(effect, closure=QUADRATURE)
+        richer = replace(effect, closure=QUADRATURE, local=True)
         about = step_to(question, films[-1], place(), richer) if richer != effect else None
         stress = by_stress(question, films[-1], place())
         return about._replace(error=about.error + stress) if about else ErrorEstimate(stress, "full stress")
@@ -113,6 +113,10 @@ def _counted(ladder: Ladder, step: Callable[[], ErrorEstimate], name: str) -> La
     return replace(ladder, rungs=tuple(counted(rung) for rung in ladder.rungs))
 
 
+ROUND_OFF = 1e-6
+"""Relative change of an answer that is not worth a remark."""
+
+
 def step_to(question: Any, film: FilmCandidate, bearing: Any, richer: Turbulence) -> ErrorEstimate:
     """Return what a film of another turbulence changes in an answer, by its force and slopes at its place."""
     rich = replace(bearing, turbulence=richer)
@@ -137,7 +141,7 @@ def _said(ladder: Ladder, effects: Sequence[Turbulence], change: float | None) -
     """Return a ladder that names its closures, and what a band of transition, or the want of one, changes."""
     closures = " and ".join(dict.fromkeys(effect.closure for effect in effects))
     within = f"{ladder.within.replace('laminar films', 'films')}, turbulent by {closures}"
-    if change is None:
+    if change is None or change < ROUND_OFF:
         return replace(ladder, within=within)
     other = "without the band" if effects[0].band else "with a band"
     text = f"turbulence: {other} of transition, behind which no measurement stands, the answer is "
@@ -171,7 +175,7 @@ class ShaftTurbulence(NamedTuple):
         own = {name: one.turbulence for name, one in journals.items() if one.turbulence is not None}
         laminar = left_laminar(scene, highest_speed(scene))
         richer = {name: turbulence_of(journals[name], scene) for name in laminar}
-        richer |= {name: replace(effect, closure=QUADRATURE) for name, effect in own.items()}
+        richer |= {name: replace(effect, closure=QUADRATURE, local=True) for name, effect in own.items()}
         return cls(own, laminar, richer)
 
     def counted(self, ladder: Ladder, step: Callable[[], ErrorEstimate], band: float | None) -> Ladder:

@@ -78,6 +78,11 @@ def decided(table: Any, scene: Any) -> Any:
         return table
     bearing = without_oil(table.build())
     if isinstance(choice, Turbulence):
+        if bearing.is_warming and not choice.local:
+            raise SceneError(
+                "turbulence.local must be true where the film warms, because a temperature field needs the "
+                "Reynolds number of each place, got false"
+            )
         return replace(table, turbulence=on_oil(choice, bearing, scene))
     return replace(table, turbulence=turbulence_of(bearing, scene)) if is_above(bearing, scene) else table
 

@@ -178,7 +178,7 @@ def test_what_knows_no_supply_says_so():
     with pytest.raises(InputError, match=r"supply.feed_holes must be left out for a question about jumps"):
         scene("jump_up", damper={**DAMPER, "supply": HOLES}).solve()
     for wrong, said in (
-        ({"supply": {}}, "supply_pressure must be above cavitation_pressure"),
+        ({"supply": {}}, "supply_pressure above cavitation_pressure"),
         ({"extent": {"kind": "full"}}, "extent must be left out beside supply"),
         ({"supply": {**SUPPLY, "circumferential_groove": "27 mm"}}, "circumferential_groove must be below"),
     ):

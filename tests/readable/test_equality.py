@@ -63,3 +63,13 @@ def test_a_list_is_the_array_of_its_numbers():
     ]
     assert made[0] == made[1] == made[2]
     assert len(set(made)) == 1
+
+
+def test_numbers_that_are_not_known_are_equal_and_hash_alike():
+    unknown = [table(), table()]
+    for one in unknown:
+        one.stiffness.setflags(write=True)
+        one.stiffness[0, 0, 1] = np.nan
+    assert unknown[0] == unknown[1]
+    assert hash(unknown[0]) == hash(unknown[0]) == hash(unknown[1])
+    assert {unknown[0]} == set(unknown)

@@ -391,3 +391,18 @@ def test_the_threshold_of_a_turbulent_bearing_with_a_groove_within_its_length_is
     assert answer.met
     assert answer.model.startswith("JFO")
     assert answer.error_estimate < 0.03
+
+
+def test_a_scene_that_asks_for_one_reynolds_number_counts_what_it_leaves_out():
+    question = QUESTION.format(quantity="eccentricity_ratio", tolerance=5)
+    one, local = (
+        quietly(scene(MU + f"turbulence = {{ local = {flag} }}", further=question).ask)
+        for flag in ("false", "true")
+    )
+    truth = abs(one.value / local.value - 1.0)
+    assert truth > 0.05
+    assert not one.met
+    assert 0.5 * truth < one.error_estimate < 2.0 * truth
+    warm = 'viscosity_40 = "32 cSt"\nviscosity_100 = "5.36 cSt"\nsupply_temperature = "45 degC"\n'
+    with pytest.raises(SceneError, match=r"turbulence.local must be true where the film warms"):
+        scene("turbulence = { local = false }", further=warm).ask()

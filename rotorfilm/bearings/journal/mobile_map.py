@@ -42,7 +42,7 @@ from ..films.map_fit import (
 from ..films.map_growth import reynolds_axis
 from ..films.map_table import ERRORS, BoundedTable, require_shapes, stretch
 from ..films.mobility import Mobility, checksum_of, per_rate, require_mobility, require_same_mobility
-from .map_film import MapFilm
+from .map_film import MapFilm, packaged_table
 from .reynolds_film import ExtrapolatedFilm, ReynoldsFilm
 
 BANDS = (0.5, 0.8, 0.9)
@@ -124,7 +124,8 @@ class MobileMapFilm(KernelFilm):
 
     With a mobility that is not local the film has one Reynolds number. Its force is that of a laminar film of
     the length L sqrt(k_z/k_x), times k_x/12. The map is then made from the laminar map in some milliseconds,
-    without films on grids, and is not kept.
+    without films on grids, and is not kept. This holds while those lengths are within the packaged laminar
+    map; other bearings take a grid.
 
     Parameters
     ----------
@@ -279,12 +280,19 @@ class MobileMap(MapPlan[MobileMapTable]):
         cos = np.linspace(-1.0, 1.0, cells_cos + 1)
         e = np.stack(np.broadcast_arrays(chi[:, None], 0.0 * cos))
         w = np.stack(np.broadcast_arrays(cos, np.sqrt((1.0 - cos) * (1.0 + cos)), 0.0 * chi[:, None])[:2])
-        levels = []
-        for y in np.linspace(0.0, math.log1p(most / scale), cells_y + 1).tolist():
-            around, along = film.mobility.factors(scale * math.expm1(y))[0][:2]
-            force = MapFilm().force(e, w, self.slenderness * math.sqrt(around / along))
-            levels.append(np.log(-0.5 / around * (force * w).sum(axis=0)))
-        return np.array(levels)
+        y = np.linspace(0.0, math.log1p(most / scale), cells_y + 1)
+        around, along = film.mobility.factors(scale * np.expm1(y))[0][:2]
+        lengths, (low, high) = self.slenderness * np.sqrt(around / along), packaged_table().slenderness_range
+        if not (low <= lengths.min() and lengths.max() <= high):
+            raise InputError(
+                f"length/diameter must give laminar films of {low:.3g} to {high:.3g} for a map of one Reynolds "
+                f"number, got {self.slenderness!r} with films of {lengths.min():.3g} to {lengths.max():.3g}; "
+                "take film=ReynoldsFilm() or turbulence with local=True"
+            )
+        forces = [MapFilm().force(e, w, length) for length in lengths.tolist()]
+        return np.array(
+            [np.log(-0.5 / k * (force * w).sum(axis=0)) for k, force in zip(around, forces, strict=True)]
+        )
 
     def finished(self, levels: Array, exact: Array | None = None) -> MobileMapTable:
         """Return the map, with its bounds where exact films are given; see `MapPlan`."""

@@ -558,7 +558,7 @@ class FrozenTiltingPads(StaticTiltingPads):
         return self
 
     def losses(self, *state: Any, **options: Any) -> None:
-        """Return None: the heat of a field has them."""
+        """Return None: `reaction` has them."""
 
     def rest_linearization(self, position: ArrayLike, speed: float) -> Linearization:
         """Return the loaded pads about their rest as states; see `TiltingPadBearing.rest_linearization`."""
@@ -566,12 +566,14 @@ class FrozenTiltingPads(StaticTiltingPads):
 
     def matrices(self, position: ArrayLike, speed: float, slopes: Any = None) -> PadMatrices:
         """Return stiffness, damping and mass of journal and pads; see `StaticTiltingPads.matrices`."""
+        _require_rotation(speed)
         tilted = self._tilted(np.asarray(position, dtype=float), speed)
         by_place, by_rate = (slope[tilted.loaded] for slope in tilted.slopes)
         return self._joined(position, speed, tilted.loaded, (by_place, by_rate))
 
     def freed(self, motion: Any) -> FreePads:
         """Return K(s) of the film of a state with its pads free to tilt."""
+        _require_rotation(motion.state.rate)
         pressure = motion.state.solution.pressure - motion.film.supply.end_pressure
         loads = self._lines @ np.abs(pressure).max(axis=1)
         return FreePads(self.bearing, replace(motion, parts=self._lines), loads > UNLOADED * loads.max())
@@ -636,6 +638,14 @@ class FrozenTiltingPads(StaticTiltingPads):
             "unloaded": (~loaded).astype(float),
         }
         return RestPoint(-load @ normal, slopes, pads, Status.OK, 0)
+
+
+def _require_rotation(speed: float) -> None:
+    """Raise UndefinedDerivativeError unless a journal turns, so that the films of pads have derivatives."""
+    if not speed:
+        raise UndefinedDerivativeError(
+            "speed must not be 0 for derivatives of tilting pads, whose films rotation alone drives, got 0.0"
+        )
 
 
 UNLOADED = 1e-12

@@ -14,7 +14,7 @@
    (F_t, F_r) = -A(chi) (w.e_t, w.e_r)
 
    Validity: The matrix A is a series over atanh(chi), made for this order, arc and length / diameter, and equal to the
-   model in Python within 1e-11. So radius and length are fixed, and clearance and viscosity tunable. Beyond the
+   model in Python within 1e-9. So radius and length are fixed, and clearance and viscosity tunable. Beyond the
    eccentricity ratio 0.999 the force goes on as (1 - chi^2)^(-3/2), with a warning. The arc follows the sense of
    rotation; for small motion about a static equilibrium. Laminar, isothermal, aligned, without grooves. */
 #include "../films/journal_model.h"

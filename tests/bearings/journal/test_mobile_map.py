@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 import rotorfilm as rf
 from rotorfilm import InputError, ValidityWarning
 from rotorfilm.bearings import MobileMapFilm, Turbulence, mobility_of
-from rotorfilm.bearings.journal import ExtrapolatedFilm, ReynoldsFilm
+from rotorfilm.bearings.journal import ExtrapolatedFilm, MapFilm, ReynoldsFilm
 from rotorfilm.bearings.journal.mobile_map import MobileMapTable
 from rotorfilm.fmu import check_fmu, extracted, instantiated
 
@@ -121,6 +121,11 @@ def test_impossible_films_are_refused():
         MobileMapFilm(mobility=TURBULENT, nodes=(4, 12, 6))
     with pytest.raises(InputError, match="represent the bearing's geometry"):
         rf.JournalBearing(**SIZE, film=FILM, grooves=(rf.Groove(center=0.0, width=0.3),))
+    one_number = rf.JournalBearing(
+        **SIZE | {"length": 0.05}, turbulence=Turbulence(local=False), film=MapFilm()
+    )
+    with pytest.raises(InputError, match=r"length/diameter must give laminar films of 0\.1 to 4"):
+        one_number.force(PLACE, np.zeros(2), SPEED)
     with pytest.raises(InputError, match="must belong to a bearing"):
         FILM.force(np.array([0.1, 0.2]), np.array([1.0, 0.0]), 0.8)
 

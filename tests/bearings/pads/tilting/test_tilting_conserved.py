@@ -196,3 +196,11 @@ def test_what_such_pads_do_not_have_is_refused():
     pulling = JFOFilm(bearing=light, cavitation_pressure=-1e5, submerged=True)
     with pytest.raises(rf.ConvergenceError, match=r"cavitation_pressure must be 0 .* at pad \d"):
         pulling.force(HERE, REST, OMEGA)
+
+
+def test_derivatives_without_rotation_are_undefined():
+    film = FILMS["rigid"]
+    with pytest.raises(rf.UndefinedDerivativeError, match="must"):
+        film.at_rest().matrices(HERE, 0.0)
+    with pytest.raises(rf.UndefinedDerivativeError, match="speed must not be 0"):
+        film.dynamic_stiffness(HERE, 0.0)(10j)
