@@ -285,8 +285,8 @@ class MobileMap(MapPlan[MobileMapTable]):
         lengths, (low, high) = self.slenderness * np.sqrt(around / along), packaged_table().slenderness_range
         if not (low <= lengths.min() and lengths.max() <= high):
             raise InputError(
-                f"length/diameter must give laminar films of {low:.3g} to {high:.3g} for a map of one Reynolds "
-                f"number, got {self.slenderness!r} with films of {lengths.min():.3g} to {lengths.max():.3g}; "
+                f"length/diameter must give laminar films of {low:.3g} to {high:.3g} for a map of one "
+                f"Reynolds number, got {self.slenderness!r} with films of {lengths.min():.3g} to {lengths.max():.3g}; "
                 "take film=ReynoldsFilm() or turbulence with local=True"
             )
         forces = [MapFilm().force(e, w, length) for length in lengths.tolist()]
