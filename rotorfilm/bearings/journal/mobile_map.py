@@ -286,8 +286,8 @@ class MobileMap(MapPlan[MobileMapTable]):
         if not (low <= lengths.min() and lengths.max() <= high):
             raise InputError(
                 f"length/diameter must give laminar films of {low:.3g} to {high:.3g} for a map of one "
-                f"Reynolds number, got {self.slenderness!r} with films of {lengths.min():.3g} to {lengths.max():.3g}; "
-                "take film=ReynoldsFilm() or turbulence with local=True"
+                f"Reynolds number, got {self.slenderness!r} with films of {lengths.min():.3g} to "
+                f"{lengths.max():.3g}; take film=ReynoldsFilm() or turbulence with local=True"
             )
         forces = [MapFilm().force(e, w, length) for length in lengths.tolist()]
         return np.array(
