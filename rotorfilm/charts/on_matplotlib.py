@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import warnings
 from functools import singledispatch
 from pathlib import Path
 from typing import Any
@@ -91,7 +92,10 @@ def png(axes: Axes, *, dpi: int = 130, kind: str = "png") -> bytes:
     assert isinstance(figure, Figure)
     picture = io.BytesIO()
     metadata = {"Software": "rotorfilm"} if kind == "png" else None
-    figure.savefig(picture, dpi=dpi, metadata=metadata, format=kind)
+    with warnings.catch_warnings():
+        # A busy machine makes it warn of the time that a legend takes.
+        warnings.filterwarnings("ignore", message="Creating legend with loc")
+        figure.savefig(picture, dpi=dpi, metadata=metadata, format=kind)
     return picture.getvalue()
 
 
