@@ -296,7 +296,7 @@ class SqueezeFilmDamper(InertialModel):
 
     @cached_property
     def polar_tables(self) -> dict[str, Array]:
-        """Tables of a full film without map, for the C library; of a film of finite length in a second."""
+        """Tables of a full film without map, for the C library; of a film of finite length in two seconds."""
         return polar_tables(self.bound_film.jacobian, LARGEST, self.slenderness)
 
     @cached_property
