@@ -62,7 +62,6 @@ def _dimensions(random: np.random.Generator, *, deep: bool) -> dict[str, Any]:
         "inner_conformity": float(random.uniform(0.51, 0.54)),
         "outer_conformity": float(random.uniform(0.51, 0.54)),
         "cage_angle": float(random.uniform(0.0, 2.0 * math.pi)),
-        "inertia": "race_control",  # as the truth has it
         "ball_material": "silicon_nitride" if random.random() < 1.0 / 3.0 else "steel",
     }
     if deep:
