@@ -486,6 +486,8 @@ def _check(kind: Any, strictly: bool) -> Check | None:
     if isinstance(kind, NoneType | type) and kind in SIMPLE:
         return SIMPLE[kind]
     origin, parts = get_origin(kind), get_args(kind)
+    if hasattr(origin, "__value__"):  # NDArray since NumPy 2.5: a name for arrays
+        origin = get_origin(origin.__value__)
     if origin in (Union, UnionType):
         return _one_of([_check(part, strictly) for part in parts])
     if origin is Literal:

@@ -36,6 +36,7 @@ RIGHT = {
     "None": {"none"},
     "Numbers": {"list", "nan", "absurd"},
     "ndarray": {"list", "nan", "absurd"},
+    "NDArray": {"list", "nan", "absurd"},  # since NumPy 2.5
     "tuple": {"list"},
     "Sequence": {"list"},
     "Iterable": {"list"},
