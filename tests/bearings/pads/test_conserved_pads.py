@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotorfilm as rf
-from rotorfilm import FilmContactError, InputError, JFOFilm
+from rotorfilm import ConvergenceError, FilmContactError, InputError, JFOFilm
 from rotorfilm.bearings import MomentCarryingJFOFilm, Pad, PadGridFilm, Recess, RecessedPad, rupture_error
 from rotorfilm.bearings.films.geometry import FilmGeometry, SunkArc
 from rotorfilm.bearings.films.mass_conserving import ConservedFilm, Supply, conserved_cells
@@ -258,6 +258,25 @@ def test_pads_that_tilt_are_refused_where_they_have_no_model():
     for kind in (MomentCarryingJFOFilm, rf.HeatedJFOFilm):
         with pytest.raises(InputError, match="pads that do not tilt, got that of TiltingPadBearing"):
             kind(film=JFOFilm(bearing=tilting))
+
+
+def test_cells_too_coarse_for_a_thin_film_are_refused_and_finer_ones_are_not():
+    bearing = rf.TiltingPadBearing(
+        **{**SIZE, "viscosity": 0.02},
+        pad_clearance=7e-5,
+        pivots=tuple(0.4 * np.pi * np.arange(5)),
+        extent=1.0,
+        preload=0.3,
+    )
+    place = 0.79 * 7e-5 * np.array([np.cos(-1.77), np.sin(-1.77)])
+    with pytest.raises(
+        ConvergenceError, match=r"in \d steps, .*: the cells may be too coarse for a film so thin"
+    ):
+        JFOFilm(bearing=bearing, cells=(36, 4)).force(place, REST, 500.0)
+    forces = [
+        JFOFilm(bearing=bearing, cells=cells).force(place, REST, 500.0) for cells in ((144, 6), (216, 8))
+    ]
+    assert_allclose(forces[0], forces[1], rtol=0.03)
 
 
 def test_an_equilibrium_with_heat_balances():
