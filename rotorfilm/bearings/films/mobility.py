@@ -240,9 +240,15 @@ def require_same_mobility(told: float, mobility: Mobility | None) -> None:
 
 GAUSS = np.polynomial.legendre.leggauss(24)
 """Places and weights on (-1, 1)."""
-
 PIECES = 16
 """Of an arc, on which a gap is integrated."""
+
+
+def without_oil(film: Any) -> Any:
+    """Return a film whose map over the Reynolds number serves all bearings and oils of one shape."""
+    mobility = film.mobility
+    some = replace(mobility, density=1.0) if mobility is not None and mobility.density else mobility
+    return replace(film, reynolds_scale=0.0, mobility=some)
 
 
 def per_rate(mobility: Mobility | None, reynolds_scale: float) -> float:

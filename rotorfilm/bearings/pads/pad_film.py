@@ -26,6 +26,7 @@ from ..films.mobility import (
     require_mobility,
     require_same_mobility,
     with_mobility,
+    without_oil,
 )
 from .pad_build import CELLS, FINE, NEAR, PadMap, PadResolution, pad_grid
 from .pad_table import PadFlows, PadMapTable, grid_flows
@@ -180,7 +181,7 @@ def _table_of(film: PadMapFilm, extent: float, slenderness: float) -> PadMapTabl
 
 @lru_cache(maxsize=64)
 def _kernel_of(film: PadMapFilm, extent: float, slenderness: float) -> MapKernel:
-    table = _table_of(replace(film, reynolds_scale=0.0), extent, slenderness)
+    table = _table_of(without_oil(film), extent, slenderness)
     if not film.is_grown or film.mobility is None:
         return table.kernel()
     return table.kernel(per_rate(film.mobility, film.reynolds_scale), film.mobility.density)
