@@ -346,7 +346,10 @@ def _warm(bearing: Any, load: Array, speed: float) -> Equilibrium:
                 f"carries it: {error}"
             ) from error
         steps += taken
-        warmer = bearing.balanced_temperature(position, np.zeros(2), speed) - temperature
+        if cold:
+            warmer = bearing.balanced_temperature(position, np.zeros(2), speed) - temperature
+        else:  # not the balance of each place, which is a search of its own
+            warmer = films(temperature).next_temperature(position, speed) - temperature
         return warmer if abs(warmer) > _KELVIN else 0.0
 
     low = bearing.coldest()

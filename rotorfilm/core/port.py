@@ -55,8 +55,8 @@ class Reaction(Model, Protocol):
     - `has_inertia`, `mass(...)`, `mass_slopes(...)`: F = force - mass acceleration;
     - `force_along(position, velocity, acceleration, speed)`, this force F, if it does not follow from the
       others;
-    - `is_warming`, `at_temperature(T)`, `balanced_temperature(...)`, `coldest()`, `balanced()`, `in_time()`,
-      where the temperature of the film follows from its heat;
+    - `is_warming`, `at_temperature(T)`, `balanced_temperature(...)`, `next_temperature(...)`, `coldest()`,
+      `balanced()`, `in_time()`, where the temperature of the film follows from its heat;
     - `breakpoints`, the times [s] at which an integrator should stop, in rising order;
     - `warn_of_load(load)` and `warn_of_flow(speed, temperature, hottest)`, which warn where the model of its
       film ends; a film may have a `bearing` that warns;

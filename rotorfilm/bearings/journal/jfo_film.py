@@ -40,7 +40,7 @@ from ..films.mass_conserving_steps import ConservedAtRest, FilmInMotion, MassCon
 from ..films.mobility import Mobility, require_mobility, require_no_mobility
 from ..formulas import extrapolated_value
 from ..oil import Cooling, Oil
-from ..oil.heated_bearing import FilmHeat, film_heat, film_temperature
+from ..oil.heated_bearing import FilmHeat, HeatBalance, film_heat
 from ..reaction import NOMINAL_SPEED
 from .bearing import StaticFilm, fitted_bearing
 from .moment_carrying_journal import TiltedJournal, kind_of
@@ -118,7 +118,7 @@ AT_REST = np.eye(2)
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class JFOFilm(MassConserving):
+class JFOFilm(MassConserving, HeatBalance):
     """The film of a bearing with mass-conserving cavitation (Jakobsson, Floberg and Olsson).
 
     Behind the rupture the oil flows on in a partly filled gap, until there is enough oil to form a film
@@ -389,24 +389,21 @@ class JFOFilm(MassConserving):
         """Raise InputError: its temperature over time is not modeled."""
         raise InputError("film must be a law with a heat balance over time, such as MapFilm, got JFOFilm")
 
-    def balanced_temperature(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> float:
-        """Return the temperature at which the heat of the film balances at one state [K].
-
-        The balance uses the flows of the film: the oil that leaves, enters, and returns to the openings.
+    def film_heat(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmHeat:
+        """Return the heat of the film by the oil that leaves, enters, and returns to the openings.
 
         Parameters and errors are those of `losses`.
         """
-        oil, cooling = self.bearing.cooled
+        _, cooling = self.cooled
+        found = film_heat(self.losses(position, velocity, speed), self.bearing.film_viscosity, cooling)
+        # What arrives at an opening with a given flow cannot leave by it: all of it goes on.
+        return found if self.supply_flow is None else found._replace(flow=found.side_flow)
 
-        def heat(temperature: float) -> FilmHeat:
-            film = self.at_temperature(temperature)
-            found = film_heat(film.losses(position, velocity, speed), film.bearing.film_viscosity, cooling)
-            # What arrives at an opening with a given flow cannot leave by it: all of it goes on.
-            return found if self.supply_flow is None else found._replace(flow=found.side_flow)
-
+    @property
+    def reshapes(self) -> bool:
+        """Whether the shape of the film depends on its viscosity; see `WarmBearing`."""
         is_fed = self.supply_flow is not None or supply_pressure(self.bearing) or self.cavitation_pressure
-        reshapes = bool(is_fed or self.bearing.turbulence or self.mobility)
-        return film_temperature(heat, oil, cooling, reshapes=reshapes)
+        return bool(is_fed or self.bearing.turbulence or self.mobility)
 
     def _steady(self, position: ArrayLike, speed: float) -> tuple[Array, ConservedState]:
         q, omega = require_pair("position", position), require_number("speed", speed)

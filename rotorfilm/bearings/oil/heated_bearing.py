@@ -240,7 +240,45 @@ def heated_spec(
 # What bearings share whose film has a viscosity, or an oil and one temperature: stated, or in balance.
 
 
-class WarmBearing(LaminarFilm):
+class HeatBalance:
+    """A film that has one temperature, that of its own heat: where it balances at one state."""
+
+    if TYPE_CHECKING:
+        at_temperature: Any
+        coldest: Any
+        film_heat: Any
+
+        @property
+        def cooled(self) -> tuple[Oil, Cooling]:
+            """Its oil and how that is cooled."""
+
+        @property
+        def reshapes(self) -> bool:
+            """Whether the shape of the film depends on its viscosity."""
+
+    @cached_property
+    def fresh(self) -> Self:
+        """The film at the temperature below which it never gets."""
+        return self.at_temperature(self.coldest())
+
+    def balanced_temperature(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> float:
+        """Return the temperature at which the heat of the film balances at one state [K].
+
+        Parameters and errors are those of `film_heat`.
+        """
+
+        def heat(temperature: float) -> FilmHeat:
+            film = self.fresh if temperature == self.coldest() else self.at_temperature(temperature)
+            return film.film_heat(position, velocity, speed)
+
+        return film_temperature(heat, *self.cooled, reshapes=self.reshapes)
+
+    def next_temperature(self, position: ArrayLike, speed: float) -> float:
+        """Return where the heat of this film at its own temperature would balance, its flow held [K]."""
+        return balance_temperature(self.film_heat(position, np.zeros(2), speed), *self.cooled)
+
+
+class WarmBearing(LaminarFilm, HeatBalance):
     """The lubricant of a bearing and the heat of its film; fields, force, losses are those of a subclass."""
 
     if TYPE_CHECKING:
@@ -342,11 +380,6 @@ class WarmBearing(LaminarFilm):
             raise InputError(f"oil and cooling must be given for heat, got {self.oil!r} and {self.cooling!r}")
         return self.oil, self.cooling
 
-    @cached_property
-    def fresh(self) -> Self:
-        """The bearing at the temperature below which the film never gets."""
-        return self.at_temperature(self.coldest())
-
     def coldest(self) -> float:
         """Return the temperature below which the film never gets [K]; raises InputError without cooling."""
         return self.cooled[1].coldest
@@ -380,18 +413,6 @@ class WarmBearing(LaminarFilm):
     def reshapes(self) -> bool:
         """Whether the shape of the film depends on its viscosity, so that each temperature has its own."""
         return self.turbulence is not None
-
-    def balanced_temperature(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> float:
-        """Return the temperature at which the heat of the film balances at one state [K].
-
-        Parameters and errors are those of `film_heat`.
-        """
-
-        def heat(temperature: float) -> FilmHeat:
-            bearing = self.fresh if temperature == self.coldest() else self.at_temperature(temperature)
-            return bearing.film_heat(position, velocity, speed)
-
-        return film_temperature(heat, *self.cooled, reshapes=self.reshapes)
 
     def in_time(self, start_temperature: float | None = None) -> HeatedBearing:
         """Return the bearing whose film warms and cools over time.
