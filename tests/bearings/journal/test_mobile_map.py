@@ -1,6 +1,7 @@
 """The map of a turbulent film over the Reynolds number: its grid, differences, identities, bad input."""
 
 import zipfile
+from collections import Counter
 from dataclasses import replace
 
 import fmpy
@@ -88,6 +89,32 @@ def test_one_reynolds_number_is_the_laminar_film_of_another_length(band):
         by, exact = (each.jacobian(PLACE, VELOCITY, speed) for each in (scaled, fine))
         assert_allclose(by[:, :4], exact[:, :4], atol=0.01 * np.abs(exact).max())
         assert_allclose(by[:, 4], exact[:, 4], atol=0.02 * np.hypot(*exact[:, 4]))
+
+
+def test_a_warming_film_has_one_map_and_asks_for_its_heat_once_a_temperature(monkeypatch):
+    asked = Counter()
+
+    def count(kind, name):
+        inner = getattr(kind, name)
+
+        def counted(self, *given, **further):
+            asked[name] += 1
+            return inner(self, *given, **further)
+
+        monkeypatch.setattr(kind, name, counted)
+
+    count(MobileMapFilm, "built_table")
+    count(rf.JournalBearing, "losses")
+    warm = {"oil": rf.Oil.iso_vg(32), "cooling": rf.Cooling(supply_temperature=318.15), "viscosity": None}
+    large = rf.JournalBearing(**SIZE | warm, turbulence=Turbulence(local=False), film=MapFilm())
+    at = rf.equilibrium(large, (0.0, -3e5), 314.0)
+    assert asked["built_table"] <= 1
+    assert asked["losses"] <= 12
+    film = large.at_temperature(at.temperature)
+    assert_allclose(film.force(at.position, (0.0, 0.0), 314.0), [0.0, 3e5], atol=0.01)
+    assert large.balanced_temperature(at.position, (0.0, 0.0), 314.0) == pytest.approx(
+        at.temperature, abs=1e-8
+    )
 
 
 def test_losses_are_those_of_the_grid_and_above_laminar_ones(bearing):
