@@ -508,6 +508,7 @@ def driven_by_unbalance(
     return synchronous_response(rotor, bearings, speeds, loads, lambda speed: speed**2 * turning, "unbalance")
 
 
+@one_blas_thread
 def synchronous_response(
     rotor: FlexibleRotor,
     bearings: Bearings,

@@ -219,6 +219,7 @@ class Scene:
         return read_scene(varied(read_tables(path), changes), str(path))
 
     @said_once()
+    @one_blas_thread
     def solve(self, report: Report = silent) -> Any:
         """Return the answer to the question, or without a question the results of the bearing or rotor.
 
