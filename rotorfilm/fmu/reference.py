@@ -31,7 +31,9 @@ from ..rotors import MountedRotor
 if TYPE_CHECKING:
     import control
 
-ROWS = 51
+ROWS, DRIVEN_ROWS = 51, 11
+"""Rows of a table, and those of a rotor with inputs, whose jumps keep its stiff shaft ringing."""
+
 TOLERANCE = 1e-13
 """Local error of the integration, near the smallest that has a meaning."""
 
@@ -65,19 +67,21 @@ def reference_table(model: Model | Stepped, start: Array, duration: float) -> Ar
     time: Array = np.linspace(0.0, duration, ROWS)
     if isinstance(model, MountedRotor):
         time = _within_a_turn(model, start, time)
-        if not model.inputs and (table := _compiled(model, time)) is not None:
+        if model.inputs:
+            time = time[:DRIVEN_ROWS]
+        elif (table := _compiled(model, time)) is not None:
             return table
     nominal = np.array([signal.nominal for signal in model.inputs])
     cycles = np.arange(1, len(nominal) + 1)
-    waves = np.sin(2.0 * np.pi * np.outer(time / duration, cycles) + cycles)
+    waves = np.sin(2.0 * np.pi * np.outer(time / time[-1], cycles) + cycles)
     best: list[Array] = []
     for swing in SWINGS:
         rows, why = _rows(model, time, start + swing * nominal * waves)
         best = max(best, rows, key=len)
-        if len(best) == ROWS or not len(nominal):
+        if len(best) == len(time) or not len(nominal):
             break
     if len(best) < 2:
-        best, why = _rows(model, time, np.tile(start, (ROWS, 1)))
+        best, why = _rows(model, time, np.tile(start, (len(time), 1)))
     if len(best) < 2:
         raise FmuError(
             "model must have outputs over a step from its start values, got none within "
