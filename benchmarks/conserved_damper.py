@@ -13,7 +13,7 @@ import numpy as np
 from rotorfilm import DamperSupply, FiniteSqueeze, FullFilm, JFODamper, PorousDamper, RotorfilmError
 from rotorfilm.bearings import damper_turn
 from rotorfilm.bearings.damper import ExtrapolatedDamper
-from rotorfilm.questions.damper import damper_ladder
+from rotorfilm.bearings.damper.questions import damper_ladder
 from rotorfilm.scenes import read_scene
 
 R, c, mu, OMEGA = 0.05, 1e-4, 0.01, 300.0

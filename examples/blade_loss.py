@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 
 from rotorfilm import ShortSqueeze, synchronous_orbits
+from rotorfilm.bearings.damper.answer import couple_damper
+from rotorfilm.bearings.damper.table import damper_models
 from rotorfilm.scenes import Scene, run_damper
-from rotorfilm.scenes.damper_films import damper_models
-from rotorfilm.scenes.solve_damper import couple_damper
 
 scene = Scene.load(Path(__file__).with_name("blade_loss.toml"))
 whole = run_damper(scene)

@@ -12,9 +12,9 @@ import numpy as np
 from scipy.optimize import brentq
 
 from rotorfilm import synchronous_orbits
+from rotorfilm.bearings.damper.answer import couple_damper
+from rotorfilm.bearings.damper.table import damper_models
 from rotorfilm.scenes import Scene, run_damper
-from rotorfilm.scenes.damper_films import damper_models
-from rotorfilm.scenes.solve_damper import couple_damper
 
 scene = Scene.load(Path(__file__).with_name("run_up.toml"))
 models = damper_models(scene)

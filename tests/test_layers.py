@@ -35,19 +35,25 @@ Bearings and analyses meet in `core.port` alone; scenes, questions and studies b
 STRANGERS = {("bearings", "rotors"), ("cosim", "bearings")}
 """What does not import from a part above it either."""
 
+COMMON = {"films", "oil"}
+"""Folders of bearings that are no family."""
+
+FAMILIES = {path.parent.name for path in (PACKAGE / "bearings").glob("*/__init__.py")} - COMMON
+FAMILIES |= {"rub", "seal"}
+
+FLOORS = {"table": "scenes", "answer": "scenes", "candidates": "scenes", "questions": "questions"}
+"""Files in the folder of a family that stand on an upper floor: what it brings to scenes and questions.
+
+They import what their floor may import. Nothing of the physics imports them, and the front of the family does
+not show them, so that a bearing by itself loads neither scenes nor questions. `scenes.families` names them.
+"""
+
 PARTS = {
-    "bearings": [
-        ["films"],
-        ["oil"],
-        ["journal"],
-        ["damper", "contact", "bush", "pads", "rub", "seal", "thrust"],
-        ["rolling"],
-    ],
+    "bearings": [["films"], ["oil"], ["contact", "journal"], sorted(FAMILIES - {"contact", "journal"})],
     "fmu": [["python"], ["native"]],
 }
 """The same among the folders and files of a part."""
 
-FAMILIES = {"journal", "damper", "contact", "bush", "pads", "rolling", "rub", "seal", "thrust"}
 BETWEEN_FAMILIES = {
     # The film of a damper over a map is the film of a journal that does not turn.
     ("damper", "journal"),
@@ -57,16 +63,9 @@ BETWEEN_FAMILIES = {
 
 SAME_NAME = {
     "bearing",
-    "bush",
-    "contact",
-    "damper",
-    "rolling",
-    "thrust",
-    "coupling",
-    "shaft",
-    "journal",
+    *FLOORS,
 }
-"""Files that several parts may have: a family is a file of each."""
+"""Files that every family may have."""
 
 RANK = {name: rank for rank, layer in enumerate(LAYERS) for name in layer}
 
@@ -122,9 +121,16 @@ def absolute_imports(path):
             yield node.module
 
 
+def floor_of(name):
+    """Return the layer of a module: its part, or that of scenes or questions in the folder of a family."""
+    parts = name.split(".")
+    of_family = len(parts) == 3 and parts[0] == "bearings" and parts[1] in FAMILIES
+    return FLOORS.get(parts[2], parts[0]) if of_family else parts[0]
+
+
 def is_below(source, target):
     """Return whether a module may import another by the layers of the top level."""
-    source, target = source.split(".")[0], target.split(".")[0]
+    source, target = floor_of(source), floor_of(target)
     if source in {"", "__main__"} or source == target:
         return True
     return RANK[target] < RANK[source] and (source, target) not in STRANGERS
@@ -132,6 +138,8 @@ def is_below(source, target):
 
 def is_below_inside(source, target):
     """Return whether a module may import another by the layers of the folders that they share."""
+    if floor_of(source) != source.split(".")[0]:
+        return True
     ours, theirs = source.split("."), target.split(".")
     shared = next((k for k, (a, b) in enumerate(zip(ours, theirs, strict=False)) if a != b), None)
     if not shared:
@@ -190,12 +198,13 @@ def test_no_circle_of_files():
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_family_imports_only_what_is_common(name):
-    ours = family_of(name)
-    theirs = {family_of(target) for target in TARGETS[name]} - {None, ours}
-    if ours:
-        assert {(ours, family) for family in theirs} <= BETWEEN_FAMILIES
+    ours, is_physics = family_of(name), floor_of(name) == "bearings"
     foreign = [target for target in TARGETS[name] if family_of(target) not in {None, ours}]
-    inner = [target for target in foreign if target.count(".") > 1]
+    if ours and is_physics:
+        assert {(ours, family_of(target)) for target in foreign} <= BETWEEN_FAMILIES
+    upper = [target for target in foreign if floor_of(target) != "bearings"]
+    assert not (ours and upper), f"{name} must leave {upper} to its family: put what both need below them"
+    inner = [target for target in foreign if target.count(".") > 1 and target not in upper]
     assert not inner, f"{name} must import from the folder of a family, not from its inner modules {inner}"
 
 
@@ -275,6 +284,12 @@ def test_the_rules_see_a_wrong_import():
     assert not is_below("bearings.linear", "rotors.mounted")
     assert not is_below("core.model", "native.spec")
     assert not is_below("scenes.scene", "questions.walk")
+    assert not is_below("bearings.thrust", "bearings.thrust.table")
+    assert not is_below("bearings.thrust.bearing", "scenes.reading")
+    assert not is_below("bearings.thrust.table", "bearings.thrust.questions")
+    assert not is_below("scenes.shaft_table", "bearings.thrust.questions")
     assert not is_below_inside("bearings.films.law", "bearings.journal.bearing")
     assert is_below("cosim.master", "fmu.export")
+    assert is_below("bearings.thrust.questions", "questions.walk")
+    assert is_below("scenes.shaft_table", "bearings.thrust.table")
     assert is_below("cli.main", "charts.canvas")

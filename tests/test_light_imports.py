@@ -90,9 +90,13 @@ def test_the_list_of_modules_is_seen():
 
 
 def test_names_load_from_the_module_that_holds_them():
-    loaded = loaded_by("from rotorfilm.bearings import HalfSommerfeld")
-    assert "rotorfilm.bearings.films.geometry" in loaded
+    code = "from rotorfilm.bearings import HalfSommerfeld"
+    loaded = loaded_by(f"{code}; from rotorfilm.bearings.thrust import ThrustBearing")
+    assert {"rotorfilm.bearings.films.geometry", "rotorfilm.bearings.thrust.bearing"} <= loaded
     assert "rotorfilm.bearings.journal" not in loaded
+    # What a family brings to scenes and questions stands in its folder, and is no part of its physics.
+    upper = {"scenes", "questions", "table"}
+    assert not {name for name in loaded if name.startswith("rotorfilm.") and upper & {*name.split(".")}}
 
 
 def test_a_function_hides_the_module_of_its_name():

@@ -8,11 +8,11 @@ import pytest
 import rotorfilm
 
 PACKAGE = Path(rotorfilm.__file__).parent
-QUESTIONS = sorted((PACKAGE / "questions").rglob("*.py"))
+QUESTIONS = sorted([*(PACKAGE / "questions").rglob("*.py"), *(PACKAGE / "bearings").glob("*/questions.py")])
 CANDIDATES = [
     PACKAGE / "scenes" / "film_rungs.py",
-    PACKAGE / "scenes" / "damper_films.py",
-    PACKAGE / "scenes" / "contact.py",
+    PACKAGE / "bearings" / "damper" / "candidates.py",
+    PACKAGE / "bearings" / "contact" / "table.py",
     PACKAGE / "core" / "answers.py",
 ]
 
@@ -74,7 +74,7 @@ def labels_as_keys(source):
                 yield node.lineno, part.attr
 
 
-@pytest.mark.parametrize("path", QUESTIONS, ids=lambda path: path.name)
+@pytest.mark.parametrize("path", QUESTIONS, ids=lambda path: path.relative_to(PACKAGE).as_posix())
 def test_questions_hold_no_solver(path):
     assert list(loops_of_solvers(path.read_text(encoding="utf-8"))) == []
 
@@ -87,7 +87,9 @@ PLACES = {
 }
 
 
-@pytest.mark.parametrize("path", [*QUESTIONS, *CANDIDATES], ids=lambda path: path.name)
+@pytest.mark.parametrize(
+    "path", [*QUESTIONS, *CANDIDATES], ids=lambda path: path.relative_to(PACKAGE).as_posix()
+)
 def test_no_display_name_is_a_key(path):
     found = {(path.name, label) for _, label in labels_as_keys(path.read_text(encoding="utf-8"))}
     assert found <= PLACES

@@ -14,9 +14,9 @@ from scipy.optimize import brentq
 from rotorfilm import ContactError, with_springs
 from rotorfilm.analysis import simulate
 from rotorfilm.bearings.damper import FiniteSqueeze, SqueezeFilmDamper
+from rotorfilm.bearings.damper.table import damper_models
 from rotorfilm.questions import ladder_of
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.damper_films import damper_models
 
 from .built_truth import Place, beyond, impedance
 from .drawn import Drawn, Truth, log_uniform

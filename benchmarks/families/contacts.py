@@ -10,8 +10,8 @@ from scipy.interpolate import CubicSpline
 
 from rotorfilm import ConvergenceError, InputError
 from rotorfilm.bearings.contact import ContactGrid, FixedSteps, RollingBall, SineLoad
+from rotorfilm.bearings.contact.table import DrivenBall, contact_motion
 from rotorfilm.scenes import Scene, read_scene
-from rotorfilm.scenes.contact import DrivenBall, contact_motion
 
 from .drawn import Drawn, Truth, log_uniform
 

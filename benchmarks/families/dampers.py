@@ -14,10 +14,10 @@ from rotorfilm import ContactError, Reaction, with_springs
 from rotorfilm.analysis import simulate, synchronous_orbits
 from rotorfilm.analysis.circular_orbits import orbit_points, orbit_rotor
 from rotorfilm.bearings.damper import FiniteMapSqueeze, FiniteSqueeze, PorousDamper
-from rotorfilm.questions.damper import damper_ladder
+from rotorfilm.bearings.damper.questions import damper_ladder
+from rotorfilm.bearings.damper.table import damper_models
 from rotorfilm.rotors import RigidRotor
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.damper_films import damper_models
 
 from .drawn import Drawn, Truth, log_uniform
 

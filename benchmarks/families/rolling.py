@@ -11,8 +11,8 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import root
 
 from rotorfilm.bearings.rolling import EllipticContact
+from rotorfilm.bearings.rolling.table import rest_under, single_of
 from rotorfilm.scenes import Scene, read_scene
-from rotorfilm.scenes.rolling import rest_under, single_of
 
 from .drawn import Drawn, Truth, log_uniform
 

@@ -45,6 +45,8 @@ if TYPE_CHECKING:
     )
     from .result_charts import (
         picture_of as picture_of,
+        plot_ball_curves as plot_ball_curves,
+        plot_compliance as plot_compliance,
         plot_contact_run as plot_contact_run,
         plot_histogram as plot_histogram,
         plot_map as plot_map,
@@ -52,10 +54,6 @@ if TYPE_CHECKING:
         plot_result as plot_result,
         plot_scene_ladder as plot_scene_ladder,
         plot_tornado as plot_tornado,
-    )
-    from .rolling_charts import (
-        plot_ball_curves as plot_ball_curves,
-        plot_compliance as plot_compliance,
     )
     from .rotor_charts import (
         plot_basin as plot_basin,

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from ..analysis import StabilityLevelOne
-    from ..scenes.solve_damper import DamperAnswer
+    from ..bearings.damper.answer import DamperAnswer
     from ..scenes.solve_shaft import RotorAnswer
 
 

@@ -38,7 +38,7 @@ from ..scenes.film_rungs import (
     maximum_pressure,
     tangent,
 )
-from ..scenes.journal_tables import ConservingTable
+from ..scenes.oil_film_tables import ConservingTable
 from .heat_levels import field_rung
 from .variants import FunctionRung, counted_rung, with_estimate
 

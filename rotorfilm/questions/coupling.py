@@ -16,7 +16,7 @@ from ..core.errors import CouplingError, InputError, RotorfilmError
 from ..core.units import CELSIUS
 from ..cosim import Scheme
 from ..cosim.coupling_error import SCHEMES, CouplingCase
-from ..scenes.journal_tables import has_map, require_law
+from ..scenes.oil_film_tables import has_map, require_law
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene

@@ -29,7 +29,7 @@ from ..core.port import Reaction, amplitude_ratio
 from ..core.results import Coefficients
 from ..rotors import RigidRotor
 from ..scenes.film_rungs import FilmCandidate, any_candidate
-from ..scenes.journal_tables import require_law
+from ..scenes.oil_film_tables import require_law
 from ..scenes.shared_tables import BladeLossTable, UnbalanceTable
 from .film_statics import FilmQuestion, Films, Units, film_ladder
 from .quantities import FORCE, ORBIT_UNITS, PHASE, relative

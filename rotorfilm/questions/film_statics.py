@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from ..analysis import coefficients, equilibrium, whirl_threshold
+from ..analysis import coefficients, equilibrium, threshold_near, whirl_threshold
 from ..bearings.journal import JFOFilm, JournalBearing
 from ..core.answers import (
     ISOTHERMAL,
@@ -28,9 +28,7 @@ from ..core.errors import InputError, RotorfilmError
 from ..core.results import Equilibrium, WhirlThreshold
 from ..scenes.film_heat import FIELD_LEVELS, FieldLevel, RestJudge, WarmRest, uniform_rest
 from ..scenes.film_rungs import FilmCandidate, FilmRest, least_stable, whirl_growth, whirl_matrix
-from ..scenes.journal_tables import ConservingTable
-from ..scenes.solve_journal import conserved_threshold
-from ..scenes.turbulent import effect_of, is_left_laminar
+from ..scenes.oil_film_tables import ConservingTable, effect_of, is_left_laminar
 from .conserved_oil import Change, change_at_rest, coarse_films, conserved_ladder, conserved_oil, rest_on
 from .heat_levels import BALANCED, HeatLevel, WarmSolution, answer_below, heat
 from .quantities import QUANTITIES, TEMPERATURES, FilmQuantity, relative
@@ -550,3 +548,16 @@ def whirl_ladder(films: Films, scene: Scene, quantity: str, *, levels: bool = Tr
         secants=secant_speed,
     )
     return film_ladder(scene, films, question)
+
+
+def conserved_threshold(film: JFOFilm, load: tuple[float, float], mass: float, start: float) -> float:
+    """Return the speed at which the whirl of a rigid rotor begins [rad/s], the nearest to `start`.
+
+    Raises
+    ------
+    AbsentError, ConvergenceError
+        As `threshold_near`.
+    """
+    found = threshold_near(film, load, mass, start).speed
+    assert found is not None  # or there is an error
+    return found

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..analysis import RotorEquilibrium, equilibrium, rotor_equilibrium
 from ..bearings.journal import JournalBearing, TiltLevel
+from ..bearings.journal.questions import TiltLevelFilm, tilted_films
 from ..core.answers import (
     HEATED,
     SAFETY,
@@ -29,10 +30,9 @@ from ..rotors import FlexibleRotor, ShaftRotor
 from ..rotors.shaft_rotor import ShaftModel
 from ..scenes import film_heat
 from ..scenes.film_rungs import FilmCandidate, FilmRung, corrected, turn_films
-from ..scenes.journal_tables import has_map
+from ..scenes.oil_film_tables import has_map
 from ..scenes.shared_tables import oil_remarks
 from ..scenes.solve_shaft import shaft_physics, shaft_remarks
-from ..scenes.tilted_films import TiltLevelFilm, tilted_films
 from .heat_levels import BALANCE, BALANCED, FRESH, HeatLevel, balance_at, known_films, with_heat, with_moving
 from .turbulent_oil import turbulent_shaft
 from .variants import FunctionRung, counted_rung, with_estimate

@@ -25,7 +25,15 @@ from ..core.answers import ErrorEstimate, Ladder, LeftOutRemark, Rung, RungResul
 from ..core.errors import RotorfilmError
 from ..core.results import Coefficients
 from ..scenes.film_rungs import ONE_NUMBER, FilmCandidate
-from ..scenes.turbulent import QUADRATURE, is_left_laminar, other_band, quick, quiet, turbulence_of, warmed
+from ..scenes.oil_film_tables import (
+    QUADRATURE,
+    is_left_laminar,
+    other_band,
+    quick,
+    quiet,
+    turbulence_of,
+    warmed,
+)
 from ..scenes.turbulent_shaft import JournalStation, highest_speed, left_laminar
 from .conserved_oil import rest_on
 from .variants import FunctionRung, with_estimate

@@ -284,23 +284,9 @@ def _trusted_error(report: answers.RungReport) -> float:
 # Which family answers which quantity: by the records of the families.
 
 
-LADDERS = {
-    "journal": "questions.journal.LADDERS",
-    "bush": "questions.bush.LADDERS",
-    "contact": "questions.contact.LADDERS",
-    "shaft": "questions.shaft.LADDERS",
-    "damper": "questions.damper.LADDERS",
-    "lobed_journal": "questions.pads.LOBED",
-    "pressure_dam": "questions.pads.PRESSURE_DAM",
-    "tilting_pad": "questions.pads.TILTING",
-    "ball_bearing": "questions.rolling.LADDERS",
-}
-"""Places of the ladders of a family, by the name of its table, where the family itself names none."""
-
-
 def ladders_of(name: str) -> Mapping[str, Callable[[Scene, str], answers.Ladder]]:
     """Return the ladders of a family by quantity: calls that take a scene and the quantity."""
-    return brought(FAMILIES[name].ladders or LADDERS[name])
+    return brought(FAMILIES[name].ladders)
 
 
 def ladder_of(scene: Scene) -> answers.Ladder:

@@ -13,7 +13,7 @@ from ..core.results import CircularOrbit
 
 if TYPE_CHECKING:
     from ..analysis import StabilityCurve, StabilityLevelOne
-    from ..scenes.solve_damper import DamperAnswer
+    from ..bearings.damper.answer import DamperAnswer
     from ..scenes.solve_shaft import RotorAnswer
 
 RPM = 30.0 / math.pi

@@ -15,10 +15,10 @@ from ..core.results import Trajectory
 from .answer_rows import RPM
 
 if TYPE_CHECKING:
+    from ..bearings.contact.table import ContactResponse
+    from ..bearings.damper.answer import DamperRun
     from ..scenes import Scene
-    from ..scenes.contact import ContactResponse
     from ..scenes.rotor_runs import RotorRun
-    from ..scenes.solve_damper import DamperRun
 
 
 class FollowedMotion(NamedTuple):
@@ -50,10 +50,10 @@ class FollowedMotion(NamedTuple):
 
 def followed(scene: Scene, full: bool, fmus: bool, report: Report) -> FollowedMotion:
     """Return the motion of what moves in a scene."""
-    from ..scenes.contact import run_contact
+    from ..bearings.contact.table import run_contact
+    from ..bearings.damper.answer import couple_damper, run_damper
     from ..scenes.rotor_runs import run_rotor
     from ..scenes.shared_tables import kind_of
-    from ..scenes.solve_damper import couple_damper, run_damper
 
     on_contact = scene.contact is not None
     on_damper = scene.damper is not None and kind_of(scene.excitation) not in ("motor", "ground")

@@ -14,8 +14,10 @@ from typing import Any
 import numpy as np
 
 from .. import analysis, charts
+from ..bearings.damper.answer import DamperAnswer
 from ..bearings.journal import JournalBearing, ReynoldsFilm, film_state
 from ..bearings.seal import AnnularSeal
+from ..bearings.thrust.table import ThrustAnswer
 from ..charts import Picture
 from ..core.answers import LeftOutRemark, QuestionAnswer
 from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarning, require_positive
@@ -23,13 +25,11 @@ from ..core.frames import Column, ResultTable
 from ..core.progress import Report as Progress, silent
 from ..core.readable import Readable, Row
 from ..scenes import Scene
+from ..scenes.film_answer import Answer
 from ..scenes.new_scene import scene_text
 from ..scenes.reading import quantity_of
 from ..scenes.shared_tables import kind_of
-from ..scenes.solve_damper import DamperAnswer
-from ..scenes.solve_journal import Answer
 from ..scenes.solve_shaft import RotorAnswer, added_unbalance
-from ..scenes.thrust import ThrustAnswer
 from .answer_rows import RPM, answer_rows, damper_rows, level_one_rows, rotor_rows, seconds_text
 from .motions import FollowedMotion, followed
 from .page import Block, Report, ReportSection, Verdict

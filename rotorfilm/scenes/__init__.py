@@ -5,10 +5,12 @@ from typing import TYPE_CHECKING
 from ..core.sources import show
 
 if TYPE_CHECKING:
+    from ..bearings.damper.answer import run_damper
     from .export_scene import (
         export_machine_fmu as export_machine_fmu,
         export_rotor_fmu as export_rotor_fmu,
     )
+    from .film_answer import Answer as Answer
     from .ross import (
         RossRotor as RossRotor,
         read_ross as read_ross,
@@ -27,7 +29,5 @@ if TYPE_CHECKING:
         varied,
     )
     from .shared_tables import Lubricant
-    from .solve_damper import run_damper
-    from .solve_journal import Answer as Answer
 else:
     show(__name__)

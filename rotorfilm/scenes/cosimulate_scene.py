@@ -19,7 +19,7 @@ from ..core.readable import Readable
 from ..core.results import Trajectory, orbit_distance
 from ..native.spec import HasKernel
 from .export_scene import at_rest_on_film, export_scene
-from .journal_tables import require_law
+from .oil_film_tables import require_law
 from .reading import made_from
 from .scene import Scene
 from .shared_tables import require_steps

@@ -30,8 +30,8 @@ from ..cosim.watch import quietly
 from ..studies.journal_accuracy import SPEED
 from .cosimulate_scene import critical_macro_angle, monolithic_solution
 from .export_scene import at_rest_on_film, export_scene
+from .film_answer import Answer
 from .scene import Scene
-from .solve_journal import Answer
 
 # A bearing as it runs: its oil warms until its heat balances, whatever viscosity a textbook gives it.
 

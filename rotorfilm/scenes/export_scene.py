@@ -76,7 +76,7 @@ def export_scene(
         files = {"system": "system"}
         parts: Mapping[str, tuple[Any, Mapping[str, float]]] = {"system": (model, {})}
     elif scene.thrust is not None and not scene.has_film:
-        from .thrust import thrust_models  # another family, whose models no other scene needs
+        from ..bearings.thrust.table import thrust_models  # another family, whose models no other scene needs
 
         end = 2.0 * np.pi / (abs(scene.speed) or 1.0)
         step, files, parts = 0.01 * end, {"thrust": "thrust"}, {"thrust": thrust_models(scene)}
@@ -188,7 +188,7 @@ def _damped_rotor(scene: Scene) -> tuple[Any, float, float]:
     that of finite length.
     """
     from ..bearings.damper import MapSqueeze  # another family, whose models no other scene needs
-    from .damper_films import damper_models
+    from ..bearings.damper.table import damper_models
 
     table = scene.damper
     if table.film is None and not table.needs_length:

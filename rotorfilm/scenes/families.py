@@ -20,42 +20,54 @@ class Family(NamedTuple):
     ----------
     table : str
         The dataclass that its table is read into; see `rotorfilm.scenes.reading`.
+    ladders : str
+        By quantity, a call that takes a scene and the quantity and returns the ladder of its rungs.
     models : str
         Takes a scene and returns what of it becomes FMUs; empty if that is not one bearing under one rotor.
     answer : str
         Takes a scene without a question and a Report of its progress, and returns what the scene answers;
         empty where that is what any bearing with a film answers.
-    ladders : str
-        By quantity, a call that takes a scene and the quantity and returns the ladder of its rungs; empty
-        where `rotorfilm.questions` has them.
     """
 
     table: str
+    ladders: str
     models: str = ""
     answer: str = ""
-    ladders: str = ""
 
 
 FILM = "scenes.export_scene.film_models"
 
 FAMILIES = {
-    "journal": Family("scenes.journal_tables.JournalTable", FILM),
-    "bush": Family("scenes.bush_table.BushTable", answer="scenes.bush_table.answer_bush"),
-    "contact": Family("scenes.contact.ContactTable", answer="scenes.contact.answer_contact"),
-    "shaft": Family("scenes.shaft_table.ShaftTable", answer="scenes.solve_shaft.solve_rotor"),
-    "damper": Family(
-        "scenes.damper_table.DamperTable",
-        "scenes.damper_films.damper_fmus",
-        "scenes.solve_damper.answer_damper",
+    "journal": Family("bearings.journal.table.JournalTable", "bearings.journal.questions.LADDERS", FILM),
+    "bush": Family(
+        "bearings.bush.table.BushTable",
+        "bearings.bush.questions.LADDERS",
+        answer="bearings.bush.table.answer_bush",
     ),
-    "lobed_journal": Family("scenes.pad_tables.LobedTable", FILM),
-    "pressure_dam": Family("scenes.pad_tables.DamTable", FILM),
-    "tilting_pad": Family("scenes.pad_tables.TiltingTable", "scenes.export_scene.film_models"),
-    "ball_bearing": Family("scenes.rolling.BallTable", FILM),
+    "contact": Family(
+        "bearings.contact.table.ContactTable",
+        "bearings.contact.questions.LADDERS",
+        answer="bearings.contact.table.answer_contact",
+    ),
+    "shaft": Family(
+        "scenes.shaft_table.ShaftTable",
+        "questions.shaft.LADDERS",
+        answer="scenes.solve_shaft.solve_rotor",
+    ),
+    "damper": Family(
+        "bearings.damper.table.DamperTable",
+        "bearings.damper.questions.LADDERS",
+        "bearings.damper.table.damper_fmus",
+        "bearings.damper.answer.answer_damper",
+    ),
+    "lobed_journal": Family("bearings.pads.table.LobedTable", "bearings.pads.questions.LOBED", FILM),
+    "pressure_dam": Family("bearings.pads.table.DamTable", "bearings.pads.questions.PRESSURE_DAM", FILM),
+    "tilting_pad": Family("bearings.pads.table.TiltingTable", "bearings.pads.questions.TILTING", FILM),
+    "ball_bearing": Family("bearings.rolling.table.BallTable", "bearings.rolling.questions.LADDERS", FILM),
     "thrust": Family(
-        "scenes.thrust.ThrustTable",
-        answer="scenes.thrust.answer_thrust",
-        ladders="questions.thrust.LADDERS",
+        "bearings.thrust.table.ThrustTable",
+        "bearings.thrust.questions.LADDERS",
+        answer="bearings.thrust.table.answer_thrust",
     ),
 }
 """By the name of its table in a scene."""

@@ -21,7 +21,7 @@ from ..core.errors import InputError, require_vector
 from ..core.model import Array
 from ..core.port import largest_eccentricity_ratio, minimum_film
 from ..core.results import Equilibrium
-from .journal_tables import TABLE_RANGE, has_map
+from .oil_film_tables import TABLE_RANGE, has_map
 
 COARSE_MAP = journal.GroovedMapFilm(cells=(96, 8), nodes=(8, 48, 32))
 """Made in a fifth of the time of the map with openings, with errors some four times as large."""

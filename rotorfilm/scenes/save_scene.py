@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..bearings.journal import JournalBearing
+from ..bearings.journal.table import FILMS
 from ..bearings.linear import LinearBearing
 from ..bearings.oil.oil import DENSITY
 from ..bearings.seal import AnnularSeal
@@ -18,12 +19,11 @@ from ..core.errors import InputError, SceneError, brief
 from ..core.inputs import arguments
 from ..core.port import Bearings
 from ..rotors import ShaftRotor
-from .journal_tables import FILMS
+from .oil_film_tables import NONE
 from .reading import keyed
 from .scene import Scene, read_scene
 from .shaft_table import BEAMS, SEAL_KEYS
 from .shared_tables import SCHEMA
-from .turbulent import NONE
 
 TABLES = {JournalBearing: "journal", AnnularSeal: "seal"}
 """Keys of bearings in an entry of `shaft.bearings`."""

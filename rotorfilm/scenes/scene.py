@@ -27,13 +27,13 @@ from ..core.units import STANDARD_GRAVITY, whole_number
 from ..rotors.rigid import RigidRotor
 from . import shared_tables
 from .families import FAMILIES, brought, table_of
+from .oil_film_tables import decided
 from .reading import Beside, Quantity, Variant, one_of, read_table, require_no_near_miss, takes
 from .shared_tables import film_table
-from .turbulent import decided
 
 if TYPE_CHECKING:
     from ..bearings.journal import JournalBearing
-    from .solve_journal import Answer
+    from .film_answer import Answer
 
 # `[question]`: the quantity that is asked for, and how accurate it must be.
 
@@ -276,7 +276,7 @@ class Scene:
         Effects that the film neglects are in `remarks` of the answer.
         """
         bearing = self.bearing  # once, and before an import resets what was warned of: making it may warn
-        from .solve_journal import film_answer  # which a scene with a question does not need
+        from .film_answer import film_answer  # which a scene with a question does not need
 
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
         given = self.film_table.repeated_inputs(bearing)

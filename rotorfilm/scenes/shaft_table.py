@@ -14,17 +14,17 @@ from .. import rotors
 from ..analysis import AxialStage, DisturbingStage, Impeller
 from ..bearings.assemblies import Parallel
 from ..bearings.journal import JournalBearing, MapFilm, MomentCarryingJournal, ReynoldsFilm, TiltLevel
+from ..bearings.journal.table import ANGLES, JournalTable, feeling_tilt
 from ..bearings.linear import LinearBearing
 from ..bearings.seal import AnnularSeal
+from ..bearings.thrust.table import ThrustTable
 from ..core.errors import InputError, SceneError, brief, require_given, require_positive
 from ..core.inputs import nearest
 from ..core.limits import SHAFT_ELEMENTS, SPEEDS, require_at_most
 from ..core.model import Array
 from ..core.port import Reaction
 from . import reading
-from .journal_tables import ANGLES, JournalTable, feeling_tilt
 from .shared_tables import LubricantTable, UnbalanceTable
-from .thrust import ThrustTable
 
 # What a shaft of a scene is made of: its pieces, couplings, disks, and bearings.
 

@@ -13,6 +13,8 @@ import numpy as np
 from .. import analysis
 from ..analysis.closed_loop import driven_by_unbalance
 from ..bearings.journal import USUAL_CORRECTION, JournalBearing, MomentCarryingJournal
+from ..bearings.journal.table import film_remarks
+from ..bearings.thrust.table import pads_load
 from ..core.answers import ISOTHERMAL
 from ..core.errors import InputError, RotorfilmError
 from ..core.model import Array
@@ -21,10 +23,8 @@ from ..core.progress import Report, part_of, silent
 from ..core.readable import Drawable
 from ..rotors import ShaftElement, ShaftRotor
 from .families import messages, prefixed, remarks_of
-from .journal_tables import film_remarks
+from .oil_film_tables import turbulent_remarks
 from .shared_tables import GroundTable, Lubricant, UnbalanceTable, oil_remarks, require_kind
-from .thrust import pads_load
-from .turbulent import turbulent_remarks
 from .turbulent_shaft import on_stiff_bearings
 
 if TYPE_CHECKING:

@@ -13,8 +13,8 @@ from ..bearings.linear import LinearBearing
 from ..bearings.seal import AnnularSeal
 from ..core.port import Reaction, freedoms_of
 from ..rotors import ShaftRotor
+from .oil_film_tables import decided, is_left_laminar
 from .shared_tables import fastest_speed
-from .turbulent import decided, is_left_laminar
 
 if TYPE_CHECKING:
     from .scene import Scene

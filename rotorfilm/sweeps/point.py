@@ -13,14 +13,14 @@ from typing import Any
 
 import numpy as np
 
+from ..bearings.bush.table import BushAnswer
 from ..core.answers import QuestionAnswer
 from ..core.errors import InputError, RotorfilmError, ValidityWarning
 from ..core.limits import SWEEP_POINTS, require_at_most
 from ..core.units import UNITS
-from ..scenes.bush_table import BushAnswer
+from ..scenes.film_answer import Answer
 from ..scenes.reading import Quantity, quantity_of
 from ..scenes.scene import Scene, read_scene, varied
-from ..scenes.solve_journal import Answer
 
 Row = dict[str, Any]
 """What a point answers, by name: numbers, nested lists of numbers, text."""

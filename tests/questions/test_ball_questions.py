@@ -8,8 +8,8 @@ import scene_battery
 from families import FAMILIES
 
 from rotorfilm import ConvergenceError, InputError, SceneError
-from rotorfilm.bearings.rolling import RunningBalls
-from rotorfilm.questions import ladder_of, rolling as ball_questions
+from rotorfilm.bearings.rolling import RunningBalls, questions as ball_questions
+from rotorfilm.questions import ladder_of
 from rotorfilm.scenes import parse_scene, read_scene
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")

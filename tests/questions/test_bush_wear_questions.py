@@ -11,8 +11,8 @@ from families import FAMILIES
 from families.bush_truth import wear_by_nodes
 
 from rotorfilm import FilmContactError, InputError, RotorfilmError, SceneError
+from rotorfilm.bearings.bush.questions import bush_numbers, bush_remarks, bush_run
 from rotorfilm.questions import ladder_of
-from rotorfilm.questions.bush import bush_numbers, bush_remarks, bush_run
 from rotorfilm.scenes import Scene, read_scene
 
 ROOT = Path(__file__).parents[2]

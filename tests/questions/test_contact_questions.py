@@ -13,11 +13,8 @@ from families import FAMILIES
 from rotorfilm import InputError
 from rotorfilm.bearings import HERTZ_LOAD, SmallMotion
 from rotorfilm.bearings.contact import FixedSteps, RollingBall, SineLoad
-from rotorfilm.core.answers import WorkUnit
-from rotorfilm.questions import ladder_of
-from rotorfilm.questions.contact import FollowedFilm, grid_rung, law_rung, lowest, slow_rung
-from rotorfilm.scenes import Lubricant, QuestionTable, Scene, parse_scene
-from rotorfilm.scenes.contact import (
+from rotorfilm.bearings.contact.questions import FollowedFilm, grid_rung, law_rung, lowest, slow_rung
+from rotorfilm.bearings.contact.table import (
     INLETS,
     OUTLET,
     QUANTITIES,
@@ -27,6 +24,9 @@ from rotorfilm.scenes.contact import (
     contact_numbers,
     natural_frequency,
 )
+from rotorfilm.core.answers import WorkUnit
+from rotorfilm.questions import ladder_of
+from rotorfilm.scenes import Lubricant, QuestionTable, Scene, parse_scene
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 

@@ -27,18 +27,18 @@ from rotorfilm import (
     with_springs,
 )
 from rotorfilm.bearings import MapSqueeze
-from rotorfilm.cli.answer_printing import print_question
-from rotorfilm.core import AbsentError, prepared_tangent
-from rotorfilm.questions import ladder_of
-from rotorfilm.questions.damper import _endless, damper_ladder
-from rotorfilm.scenes import Lubricant, QuestionTable, parse_scene, read_scene, run_damper
-from rotorfilm.scenes.damper_films import (
+from rotorfilm.bearings.damper.candidates import (
     damper_films,
-    damper_models,
     damper_numbers,
     damper_remarks,
     largest_pressure,
 )
+from rotorfilm.bearings.damper.questions import _endless, damper_ladder
+from rotorfilm.bearings.damper.table import damper_models
+from rotorfilm.cli.answer_printing import print_question
+from rotorfilm.core import AbsentError, prepared_tangent
+from rotorfilm.questions import ladder_of
+from rotorfilm.scenes import Lubricant, QuestionTable, parse_scene, read_scene, run_damper
 
 ROOT = Path(__file__).parents[2]
 

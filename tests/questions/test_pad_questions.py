@@ -9,11 +9,11 @@ import pytest
 from rotorfilm import InputError, simulate
 from rotorfilm.analysis import coefficients, equilibrium, whirl_threshold
 from rotorfilm.bearings.pads import PadGridFilm, PadMapFilm, TiltingPadBearing
+from rotorfilm.bearings.pads.questions import COARSE_MAP, lobed_candidates, smooth_slopes
 from rotorfilm.core import AbsentError
 from rotorfilm.core.port import minimum_film
 from rotorfilm.questions import QUANTITIES, ladder_of
 from rotorfilm.questions.film_motions import rotor_of
-from rotorfilm.questions.pads import COARSE_MAP, lobed_candidates, smooth_slopes
 from rotorfilm.scenes import parse_scene, read_scene
 from rotorfilm.scenes.film_rungs import attitude, tangent
 

@@ -15,11 +15,11 @@ from rotorfilm.analysis import equilibrium
 from rotorfilm.analysis.driven_rotor import rest_on_film, rest_position, rotor_answers
 from rotorfilm.analysis.equal_steps import ORDER, linear_march, march, peak
 from rotorfilm.analysis.harmonic_balance import basis, constant, solve
+from rotorfilm.bearings.damper.table import DamperTable
 from rotorfilm.bearings.journal import ShortFilm
 from rotorfilm.questions import ladder_of, ladders_of
 from rotorfilm.questions.walk import NoAnswerError
 from rotorfilm.scenes import QuestionTable, Scene, bundled_scene, families, parse_scene
-from rotorfilm.scenes.damper_table import DamperTable
 from rotorfilm.scenes.film_rungs import extrapolated
 from rotorfilm.scenes.scene import QUANTITIES
 from rotorfilm.scenes.shared_tables import BladeLossTable, UnbalanceTable

@@ -8,10 +8,10 @@ from scipy.optimize import brentq
 
 from rotorfilm import InputError, JFODamper, SceneError, simulate
 from rotorfilm.bearings import damper_turn
+from rotorfilm.bearings.damper.questions import LEVELS, follow, of_turn
+from rotorfilm.bearings.damper.table import damper_models
 from rotorfilm.questions import ladder_of
-from rotorfilm.questions.damper import LEVELS, follow, of_turn
 from rotorfilm.scenes import read_scene, run_damper
-from rotorfilm.scenes.damper_films import damper_models
 
 SUPPLY = {
     "supply_pressure": "0.5 bar",

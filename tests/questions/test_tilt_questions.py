@@ -9,8 +9,14 @@ import pytest
 
 import rotorfilm as rf
 from rotorfilm import FilmContactError, InputError, SceneError
-from rotorfilm.bearings.journal import HeldTilt, MomentCarryingJournal, TiltLevel, tilt_map
-from rotorfilm.scenes import parse_scene, tilted_films
+from rotorfilm.bearings.journal import (
+    HeldTilt,
+    MomentCarryingJournal,
+    TiltLevel,
+    questions as tilted_films,
+    tilt_map,
+)
+from rotorfilm.scenes import parse_scene
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 

@@ -17,8 +17,8 @@ FOLDER = Path(__file__).parent / "sleeve"
 MOST_LINES = 3
 
 LINE = (
-    '    "sleeve": Family("scenes.sleeve.SleeveTable", "scenes.sleeve.sleeve_models", '
-    'ladders="scenes.sleeve.LADDERS"),\n'
+    '    "sleeve": Family("bearings.sleeve.table.SleeveTable", "bearings.sleeve.questions.LADDERS", '
+    '"bearings.sleeve.table.sleeve_models"),\n'
 )
 BEFORE = '    "lobed_journal": Family('
 
@@ -90,7 +90,7 @@ def answered(tmp_path_factory):
     home = tmp_path_factory.mktemp("copy")
     copy = home / "rotorfilm"
     shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
-    shutil.copytree(FOLDER, copy / "scenes" / "sleeve", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(FOLDER, copy / "bearings" / "sleeve", ignore=shutil.ignore_patterns("__pycache__"))
     listed = copy / "scenes" / "families.py"
     before = listed.read_text(encoding="utf-8")
     listed.write_text(before.replace(BEFORE, LINE + BEFORE), encoding="utf-8")

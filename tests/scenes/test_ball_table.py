@@ -24,10 +24,10 @@ from rotorfilm import (
     tandem,
 )
 from rotorfilm.bearings import RaceControl
+from rotorfilm.bearings.rolling.table import ball_numbers, rest_under, single_of
 from rotorfilm.fmu import describe_fmu
 from rotorfilm.scenes import parse_scene, read_scene
 from rotorfilm.scenes.export_scene import export_scene
-from rotorfilm.scenes.rolling import ball_numbers, rest_under, single_of
 from rotorfilm.sweeps.point import solve_point
 
 ROW = 'balls = 10\nball_diameter = "7.938 mm"\npitch_diameter = "33.5 mm"\n'

@@ -24,9 +24,9 @@ from rotorfilm import (
 from rotorfilm.analysis import simulate
 from rotorfilm.bearings import JudgedDamper
 from rotorfilm.bearings.damper.neglected_effects import neglected_force
+from rotorfilm.bearings.damper.table import damper_fmus, damper_models
 from rotorfilm.questions import ladder_of
 from rotorfilm.scenes import parse_scene
-from rotorfilm.scenes.damper_films import damper_fmus, damper_models
 from rotorfilm.scenes.export_scene import export_scene
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")

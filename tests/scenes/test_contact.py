@@ -6,8 +6,9 @@ import pytest
 
 from rotorfilm import ContactGrid, PointContact, SceneError, ValidityWarning, reduce_contact
 from rotorfilm.bearings import StepLoad, ball_transient
-from rotorfilm.scenes import contact as solve_contact, parse_scene
-from rotorfilm.scenes.contact import ContactCase, respond
+from rotorfilm.bearings.contact import table as solve_contact
+from rotorfilm.bearings.contact.table import ContactCase, respond
+from rotorfilm.scenes import parse_scene
 
 TEXT = """
 schema = 1

@@ -23,11 +23,11 @@ from rotorfilm import (
     with_springs,
 )
 from rotorfilm.bearings import AxialFeed, MapSqueeze, PublishedSqueeze
+from rotorfilm.bearings.damper.answer import couple_damper
+from rotorfilm.bearings.damper.table import damper_models
 from rotorfilm.scenes import bundled_scene, parse_scene, run_damper
-from rotorfilm.scenes.damper_films import damper_models
 from rotorfilm.scenes.export_scene import export_scene
 from rotorfilm.scenes.shared_tables import StepLoadTable
-from rotorfilm.scenes.solve_damper import couple_damper
 
 DAMPER = """
 schema = 1

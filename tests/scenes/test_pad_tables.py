@@ -18,12 +18,14 @@ from rotorfilm.bearings.pads import (
     even_pivots,
     lobe_set,
     pressure_dam_pads,
+    table as lobed_table,
+    table as tilting_table,
 )
+from rotorfilm.bearings.pads.questions import COARSE_MAP
+from rotorfilm.bearings.pads.table import pad_numbers
 from rotorfilm.fmu import describe_fmu
-from rotorfilm.questions.pads import COARSE_MAP
-from rotorfilm.scenes import pad_tables as lobed_table, pad_tables as tilting_table, parse_scene
+from rotorfilm.scenes import parse_scene
 from rotorfilm.scenes.export_scene import export_scene
-from rotorfilm.scenes.pad_tables import pad_numbers
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.ValidityWarning")
 

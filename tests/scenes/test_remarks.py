@@ -5,14 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from rotorfilm.questions import bush as bush_remarks
-from rotorfilm.scenes import (
-    Scene,
-    bundled_scene,
-    contact as contact_remarks,
-    damper_films as damper_ranges,
-    journal_tables as journal_remarks,
-)
+from rotorfilm.bearings.bush import questions as bush_remarks
+from rotorfilm.bearings.contact import table as contact_remarks
+from rotorfilm.bearings.damper import candidates as damper_ranges
+from rotorfilm.bearings.journal import table as journal_remarks
+from rotorfilm.scenes import Scene, bundled_scene
 from rotorfilm.scenes.families import Remark, messages, remarks_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

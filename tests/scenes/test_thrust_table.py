@@ -10,14 +10,14 @@ import pytest
 
 import rotorfilm as rf
 from rotorfilm.bearings import ThrustBearing, TiltingThrustBearing, double_acting
-from rotorfilm.questions.thrust import GRIDS, QUANTITIES, ThrustQuestion
+from rotorfilm.bearings.thrust.questions import GRIDS, QUANTITIES, ThrustQuestion
+from rotorfilm.bearings.thrust.table import thrust_models
 from rotorfilm.questions.walk import all_models
 from rotorfilm.reports.answer_rows import rotor_rows
 from rotorfilm.scenes import parse_scene
 from rotorfilm.scenes.export_scene import export_scene
 from rotorfilm.scenes.rotor_runs import run_rotor
 from rotorfilm.scenes.solve_shaft import amplitude_unit
-from rotorfilm.scenes.thrust import thrust_models
 
 SIZE = 'inner_diameter = "60 mm"\nouter_diameter = "120 mm"\npads = 8\npad_arc = "38 deg"\n'
 HEAD = f"schema = 1\n[thrust]\n{SIZE}"

@@ -8,10 +8,11 @@ import pytest
 
 from rotorfilm import ConvergenceError, EquilibriumError, FilmContactError
 from rotorfilm.analysis import coefficients, equilibrium
-from rotorfilm.bearings.journal import JournalBearing, ShortFilm
+from rotorfilm.bearings.journal import JournalBearing, ShortFilm, table as journal_remarks
+from rotorfilm.bearings.journal.table import film_loss, film_remarks, journal_numbers
+from rotorfilm.bearings.oil.oil import TAYLOR
 from rotorfilm.core.answers import physics_within
-from rotorfilm.scenes import Lubricant, bundled_scene, journal_tables as journal_remarks
-from rotorfilm.scenes.journal_tables import TAYLOR, film_loss, film_remarks, journal_numbers
+from rotorfilm.scenes import Lubricant, bundled_scene
 
 BEARING = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02)
 OIL = Lubricant(density=900.0, heat_capacity=2000.0, conductivity=0.15, thinning=0.04)

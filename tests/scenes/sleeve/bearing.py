@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...bearings.reaction import StaticReaction
 from ...core.errors import require_positive
 from ...core.model import Array
+from ..reaction import StaticReaction
 
 
 def squeeze_damping(

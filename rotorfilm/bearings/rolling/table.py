@@ -10,15 +10,15 @@ from typing import Annotated, Any, NamedTuple, Self
 
 import numpy as np
 
-from ..analysis import equilibrium
-from ..bearings import rolling
-from ..core.errors import InputError, RotorfilmError, ValidityWarning, require_given, require_positive
-from ..core.model import Array
-from ..core.progress import Report
-from ..core.readable import Readable
-from . import reading
-from .families import messages, remarks_of
-from .shared_tables import Lubricant, LubricantTable
+from ...analysis import equilibrium
+from ...core.errors import InputError, RotorfilmError, ValidityWarning, require_given, require_positive
+from ...core.model import Array
+from ...core.progress import Report
+from ...core.readable import Readable
+from ...scenes import reading
+from ...scenes.families import messages, remarks_of
+from ...scenes.shared_tables import Lubricant, LubricantTable
+from .. import rolling
 
 ANGLES = "two angles, about x and about y"
 MOST_BALLS = 200

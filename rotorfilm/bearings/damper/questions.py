@@ -10,10 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..analysis import circular_orbits, equal_steps, simulate
-from ..bearings.damper import FiniteSqueeze, JFODamper
-from ..core import errors
-from ..core.answers import (
+from ...analysis import circular_orbits, equal_steps, simulate
+from ...core import errors
+from ...core.answers import (
     DISAGREEMENT,
     ISOTHERMAL,
     CandidateRung,
@@ -24,20 +23,20 @@ from ..core.answers import (
     Work,
     WorkUnit,
 )
-from ..core.model import Array
-from ..core.port import PlanarReaction, Tangent, inertial, largest_eccentricity_ratio, prepared_tangent
-from ..core.results import Trajectory
-from ..rotors import RigidRotor
-from ..scenes import damper_films
-from ..scenes.damper_table import DamperTable
-from ..scenes.film_rungs import MAP_MADE, Counted
-from ..scenes.shared_tables import BladeLossTable, RunUpTable
-from .coupling import coupling_ladder
-from .film_motions import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
-from .variants import counted_rung
+from ...core.model import Array
+from ...core.port import PlanarReaction, Tangent, inertial, largest_eccentricity_ratio, prepared_tangent
+from ...core.results import Trajectory
+from ...questions.coupling import coupling_ladder
+from ...questions.film_motions import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
+from ...questions.variants import counted_rung
+from ...rotors import RigidRotor
+from ...scenes.film_rungs import MAP_MADE, Counted
+from ...scenes.shared_tables import BladeLossTable, RunUpTable
+from . import FiniteSqueeze, JFODamper, candidates
+from .table import DamperTable, damper_models
 
 if TYPE_CHECKING:
-    from ..scenes.scene import Scene
+    from ...scenes.scene import Scene
 
 # Questions about a rotor on a squeeze-film damper: jumps, width of the orbit, what it transmits.
 
@@ -72,13 +71,13 @@ class DamperCurveRung(CandidateRung):
     @cached_property
     def support(self) -> PlanarReaction:
         """Film and springs."""
-        return damper_films.on_springs(self.film.reaction, self.stiffness)
+        return candidates.on_springs(self.film.reaction, self.stiffness)
 
     @cached_property
     def search(self) -> PlanarReaction:
         """Film and springs that are quick enough for hundreds of orbits."""
         slow = self.film.law is None or isinstance(self.film.law, FiniteSqueeze)
-        return damper_films.on_springs(self.film.moving, self.stiffness) if slow else self.support
+        return candidates.on_springs(self.film.moving, self.stiffness) if slow else self.support
 
     @property
     def unit(self) -> WorkUnit:
@@ -140,7 +139,7 @@ class DamperCurveRung(CandidateRung):
         """
         rich = self.film.rich
         if rich is None and not math.isfinite(self.film.bound):
-            return ErrorEstimate(math.inf, "none", doubt=damper_films.NO_RICHER)
+            return ErrorEstimate(math.inf, "none", doubt=candidates.NO_RICHER)
         radius = float(found.solution)
         if rich is None:
             return self._by_bound(found.value, radius)
@@ -149,7 +148,7 @@ class DamperCurveRung(CandidateRung):
             doubt = f"the orbit goes to {radius:.4g} of the clearance, the richest film to {limit:.4g}"
             return ErrorEstimate(math.inf, "none", doubt=doubt)
         change = self._fold if self.is_fold else self._orbit
-        richer = circular_orbits.damped_orbit(self.rotor, damper_films.on_springs(rich, self.stiffness))
+        richer = circular_orbits.damped_orbit(self.rotor, candidates.on_springs(rich, self.stiffness))
         value, doubt = change(circular_orbits.orbit_rotor(self.rotor, self.support), richer, radius)
         error = abs(value - found.value) / abs(value)
         return ErrorEstimate(
@@ -228,7 +227,7 @@ class DamperCurveRung(CandidateRung):
 RICH = WorkUnit("forces of the richest film")
 
 
-@damper_films.quiet()
+@candidates.quiet()
 def damper_ladder(scene: Scene, quantity: str) -> Ladder:
     """Return the ladder of a quantity of a rotor on a damper.
 
@@ -239,7 +238,7 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
     """
     for table in ("damper", "rigid_rotor"):
         scene.required(table, quantity)
-    rotor = damper_films.damper_models(scene).rotor
+    rotor = damper_models(scene).rotor
     if quantity in (UP, DOWN):
         rotor = replace(rotor, unbalance=1e-9 * rotor.mass * scene.damper.clearance)
     elif rotor.unbalance <= 0.0:
@@ -249,7 +248,7 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
         return _run_ladder(scene, partial(_repeated, rotor, quantity), UNITS[quantity], steady=True)
     rungs = tuple(
         DamperCurveRung(film=film, rotor=rotor, stiffness=stiffness, quantity=quantity)
-        for film in damper_films.orbit_films(scene.damper, rotor)
+        for film in candidates.orbit_films(scene.damper, rotor)
         if not _endless(film, quantity, is_named=scene.damper.film is not None)
     )
     asked = replace(rotor, unbalance=0.0) if quantity in (UP, DOWN) else rotor
@@ -268,11 +267,11 @@ def _ladder(
 ) -> Ladder:
     """Return a ladder with the remarks on the rotor, on each of the films that lie side by side."""
     table = scene.damper
-    count = damper_films.lands(table)
+    count = candidates.lands(table)
     shared = replace(rotor, mass=rotor.mass / count, unbalance=rotor.unbalance / count)
-    remarks = damper_films.rotor_remarks(
+    remarks = candidates.rotor_remarks(
         table,
-        damper_films.mapped_short(table),
+        candidates.mapped_short(table),
         table.stiffness / count,
         shared,
         scene.lubricant.properties,
@@ -281,7 +280,7 @@ def _ladder(
     return Ladder(rungs=rungs, unit=unit, units=units, remarks=remarks, within=ISOTHERMAL)
 
 
-def _endless(film: damper_films.DamperFilm, quantity: str, *, is_named: bool) -> bool:
+def _endless(film: candidates.DamperFilm, quantity: str, *, is_named: bool) -> bool:
     """Return whether hundreds of orbits would take minutes: a fed film of finite length has no map.
 
     One that the scene names is the only rung there is.
@@ -330,7 +329,7 @@ class DamperPeakRung(PeakRung):
     @cached_property
     def support(self) -> PlanarReaction:
         """Film and springs, the film on its map where it has one."""
-        return damper_films.on_springs(self.film.moving, self.stiffness)
+        return candidates.on_springs(self.film.moving, self.stiffness)
 
     @cached_property
     def tangent(self) -> Tangent:
@@ -341,7 +340,7 @@ class DamperPeakRung(PeakRung):
     def rich(self) -> PlanarReaction | None:
         """The richer film and the springs; None if there is none."""
         found = self.film.rich_moving
-        return None if found is None else damper_films.on_springs(found, self.stiffness)
+        return None if found is None else candidates.on_springs(found, self.stiffness)
 
     @property
     def shaken(self) -> equal_steps.ExcitedRotor:
@@ -394,7 +393,7 @@ class DamperPeakRung(PeakRung):
         """Return the error of the steps (order increment), and of the film by its defect along the motion."""
         motion, steps = found.solution.motion, self.increment(found)
         if self.film.rich_law is None and not math.isfinite(self.film.bound):
-            return ErrorEstimate(math.inf, "order increment", doubt=damper_films.NO_RICHER)
+            return ErrorEstimate(math.inf, "order increment", doubt=candidates.NO_RICHER)
         amplitude_ratio = float(np.hypot(*motion.position).max()) / self.support.clearance
         limit = _reach(self.rich or self.support)
         if amplitude_ratio >= limit:
@@ -464,7 +463,7 @@ def _beyond(amplitude_ratio: float, limit: float) -> str:
     )
 
 
-@damper_films.quiet()
+@candidates.quiet()
 def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     """Return the ladder of the largest distance after a blade is lost, or over a run-up, in a damper.
 
@@ -480,11 +479,11 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
                 f"damper.film must not be given with supply for {quantity}, because only the mass-conserving "
                 f"film has a supply that varies in time, got {scene.damper.film!r}"
             )
-        duration = damper_films.damper_models(scene).duration
+        duration = damper_models(scene).duration
         return _run_ladder(
             scene, lambda follow, steps: equal_steps.peak(follow(duration).position), "m", steady=False
         )
-    models = damper_films.damper_models(scene)
+    models = damper_models(scene)
     rungs = tuple(
         DamperPeakRung(
             film=film,
@@ -500,9 +499,9 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     return _ladder(scene, rungs, "m", free, units=units, steady=False)
 
 
-def _choices(table: DamperTable, fastest: float) -> list[tuple[damper_films.DamperFilm, int]]:
+def _choices(table: DamperTable, fastest: float) -> list[tuple[candidates.DamperFilm, int]]:
     """Return films and steps of the rungs, 0 for the linear motion, the cheapest first."""
-    films = damper_films.built_films(table, fastest) if table.is_built else damper_films.plain_films(table)
+    films = candidates.built_films(table, fastest) if table.is_built else candidates.plain_films(table)
     # `own` is the richest film beside that of finite length: it has the whole cage, gives the small motion,
     # and is the last one where there is feed, for which a motion in the finite film takes minutes.
     *cheap, own = films if len(films) < 2 or films[-1].rich_law is not None else films[:-1]
@@ -576,7 +575,7 @@ def _run_ladder(scene: Scene, value: Callable[[Follow, int], float], unit: str, 
     `value` takes what follows the motion and the steps of a turn, and returns the quantity. Its error is the
     changes since steps twice as long and since half the cells: some thrice the error.
     """
-    table, rotor = scene.damper, damper_films.damper_models(scene).rotor
+    table, rotor = scene.damper, damper_models(scene).rotor
     damper = table.conserved(table.supply)
 
     @cache

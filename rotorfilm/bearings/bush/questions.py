@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..analysis.equal_steps import scalar_drift
-from ..bearings import bush as bushes
-from ..core.answers import DISAGREEMENT, ErrorEstimate, Ladder, RungResult, Work, WorkUnit
-from ..core.errors import ConvergenceError, FilmContactError, InputError, RotorfilmError
-from ..core.model import Array
-from ..scenes.families import messages, remarks_of
-from ..scenes.shared_tables import StepLoadTable
-from .variants import FunctionRung
+from ...analysis.equal_steps import scalar_drift
+from ...core.answers import DISAGREEMENT, ErrorEstimate, Ladder, RungResult, Work, WorkUnit
+from ...core.errors import ConvergenceError, FilmContactError, InputError, RotorfilmError
+from ...core.model import Array
+from ...questions.variants import FunctionRung
+from ...scenes.families import messages, remarks_of
+from ...scenes.shared_tables import StepLoadTable
+from .. import bush as bushes
 
 if TYPE_CHECKING:
-    from ..scenes.scene import Scene
+    from ...scenes.scene import Scene
 
 # At which speed a polymer bush melts: the heat into the shaft in closed form, then exact.
 

@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..bearings import contact as contacts
-from ..core.answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Ladder, RungResult, Work, WorkUnit
-from ..core.errors import ConvergenceError, InputError
-from ..core.model import Array
-from ..scenes.contact import (
+from ...core.answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Ladder, RungResult, Work, WorkUnit
+from ...core.errors import ConvergenceError, InputError
+from ...core.model import Array
+from ...questions.variants import FunctionRung
+from .. import contact as contacts
+from .table import (
     INLETS,
     OUTLET,
     QUANTITIES,
@@ -26,10 +27,9 @@ from ..scenes.contact import (
     natural_frequency,
     unknowns,
 )
-from .variants import FunctionRung
 
 if TYPE_CHECKING:
-    from ..scenes.scene import Scene
+    from ...scenes.scene import Scene
 
 # Film and approach of a rolling ball at rest: a formula, ever finer grids, and the rectangle around them.
 

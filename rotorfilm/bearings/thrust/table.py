@@ -9,24 +9,24 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from ..analysis import coefficients, equilibrium
-from ..bearings import thrust
-from ..bearings.assemblies import Parallel
-from ..bearings.films.turbulence import stiffening
-from ..bearings.own_reaction import as_reaction
-from ..core.dynamic_stiffness import quasi_static
-from ..core.errors import EquilibriumError, InputError, require_given, require_number, require_positive
-from ..core.model import Array
-from ..core.port import Reaction, static_force
-from ..core.progress import Report, silent
-from ..core.readable import Readable
-from ..core.results import Coefficients, Equilibrium
-from .families import messages, remarks_of
-from .reading import Count, fields_of, made_from
-from .shared_tables import Lubricant, OiledTable, oil_remarks
+from ...analysis import coefficients, equilibrium
+from ...core.dynamic_stiffness import quasi_static
+from ...core.errors import EquilibriumError, InputError, require_given, require_number, require_positive
+from ...core.model import Array
+from ...core.port import Reaction, static_force
+from ...core.progress import Report, silent
+from ...core.readable import Readable
+from ...core.results import Coefficients, Equilibrium
+from ...scenes.families import messages, remarks_of
+from ...scenes.reading import Count, fields_of, made_from
+from ...scenes.shared_tables import Lubricant, OiledTable, oil_remarks
+from .. import thrust
+from ..assemblies import Parallel
+from ..films.turbulence import stiffening
+from ..own_reaction import as_reaction
 
 if TYPE_CHECKING:
-    from .scene import Scene
+    from ...scenes.scene import Scene
 
 NARROW, WEDGE = 0.5, 50.0
 """Films over the pivots or lands, over the least film, between which that is sought."""

@@ -6,16 +6,16 @@ import math
 from dataclasses import dataclass, field, fields, replace
 from typing import TYPE_CHECKING, Annotated, Any
 
-from ..bearings import bush as bushes
-from ..core.errors import SceneError, brief
-from ..core.limits import WORN_NODES
-from ..core.progress import Report, silent
-from ..core.readable import Readable
-from ..core.signals import units
-from .reading import Count, Quantity, Taking, fields_of, made_from, named, one_of, takes
+from ...core.errors import SceneError, brief
+from ...core.limits import WORN_NODES
+from ...core.progress import Report, silent
+from ...core.readable import Readable
+from ...core.signals import units
+from ...scenes.reading import Count, Quantity, Taking, fields_of, made_from, named, one_of, takes
+from .. import bush as bushes
 
 if TYPE_CHECKING:
-    from .scene import Scene
+    from ...scenes.scene import Scene
 
 MATERIALS = {"f4k20": bushes.f4k20_bush}
 """Bushes whose data a scene may take, by name: filled PTFE F4K20 on a steel shaft, Evtushenko & Kovalenko

@@ -1,15 +1,21 @@
-"""The levels of a tilted journal that can answer a scene, the cheapest first, and what is richer."""
+"""Questions to journal bearings: the films that may answer, those of a journal that keeps a tilt too."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from ..bearings.journal import (
+from ...core.errors import InputError
+from ...core.results import Equilibrium
+from ...questions.film_ladders import film_ladders
+from ...questions.quantities import QUANTITIES
+from ...scenes.film_rungs import FilmCandidate, grid_name, grid_of, point_films, turn_films
+from ...scenes.oil_film_tables import has_map
+from . import (
     ExtrapolatedFilm,
     HeldTilt,
     JournalBearing,
@@ -21,10 +27,10 @@ from ..bearings.journal import (
     has_tilt_map,
     is_mapped,
 )
-from ..core.errors import InputError
-from ..core.results import Equilibrium
-from .film_rungs import FilmCandidate, grid_name, grid_of
-from .journal_tables import has_map
+
+if TYPE_CHECKING:
+    from ...scenes.scene import Scene
+
 
 CELLS = (96, 8), (192, 16), (384, 16)
 """Cells of films over the whole length, each judged by the next."""
@@ -156,3 +162,34 @@ def _film(bearing: JournalBearing) -> str:
     if grid is None:
         return "map"
     return grid_name(grid.cells) if isinstance(bearing.film, ExtrapolatedFilm) else film_name(bearing.film)
+
+
+# What journal bearings bring to scenes and questions.
+
+
+def journal_points(scene: Scene) -> Sequence[FilmCandidate]:
+    """Return the films of a journal bearing for some equilibria, or its levels with a tilt."""
+    if scene.journal.tilt is not None:
+        return tilted_points(scene)
+    return point_films(scene.journal_bearing, fixed=scene.film_is_given)
+
+
+def journal_turns(scene: Scene) -> Sequence[FilmCandidate]:
+    """Return those for states all round a turn: the map where there is one, else short film, grids, map."""
+    if scene.journal.tilt is not None:
+        return tilted_points(scene)
+    return turn_films(scene.journal_bearing, fixed=scene.film_is_given, grids=((48, 8), (96, 8)), maps=True)
+
+
+def tilted_points(scene: Scene) -> Sequence[FilmCandidate]:
+    """Return the levels of a journal that keeps a tilt."""
+    tilt = scene.journal.tilt
+    return tilted_films(
+        scene.journal_bearing,
+        fixed=scene.film_is_given,
+        levels={*TiltLevel} - {TiltLevel.CLOSED_FORM},  # whose force is that without tilt
+        made=lambda journal: HeldTilt(journal=journal, tilt=tilt),
+    )
+
+
+LADDERS = film_ladders(journal_points, journal_turns, QUANTITIES)

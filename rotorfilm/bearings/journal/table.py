@@ -6,15 +6,36 @@ import math
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
-from ..analysis import equilibrium
-from ..bearings import journal
-from ..bearings.films import geometry
-from ..bearings.films.law import FilmLaw
-from ..bearings.films.mass_conserving import require_conserved_cells
-from ..bearings.films.turbulence import Turbulence
-from ..bearings.journal import (
+from ...analysis import equilibrium
+from ...core.errors import InputError, RotorfilmError, SceneError, ValidityWarning, brief
+from ...core.limits import FUNCTIONS, MAP_NODES
+from ...core.progress import Report
+from ...core.readable import Readable
+from ...core.results import Equilibrium
+from ...scenes import reading
+from ...scenes.families import isothermal, messages, remarks_of
+from ...scenes.oil_film_tables import (
+    AUTO,
+    CONSERVING,
+    ConservedOil,
+    ConservingTable,
+    effect_of,
+    film_numbers,
+    film_of_cells,
+    has_map,
+    read_turbulence,
+    turbulent_remarks,
+    warmed,
+    without_oil,
+)
+from ...scenes.shared_tables import Lubricant, OiledTable
+from .. import journal
+from ..films import geometry
+from ..films.law import FilmLaw
+from ..films.turbulence import Turbulence
+from . import (
     ExtrapolatedFilm,
     HeldTilt,
     JFOFilm,
@@ -25,16 +46,6 @@ from ..bearings.journal import (
     ShortFilm,
     TiltLevel,
 )
-from ..bearings.oil.oil import TAYLOR, TURBULENT, compression, film_reynolds
-from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarning, brief
-from ..core.limits import FUNCTIONS, MAP_NODES
-from ..core.progress import Report
-from ..core.readable import Readable
-from ..core.results import Equilibrium
-from . import reading
-from .families import isothermal, messages, remarks_of
-from .shared_tables import Lubricant, OiledTable
-from .turbulent import AUTO, effect_of, read_turbulence, turbulent_remarks, without_oil
 
 ORDER = reading.Count(FUNCTIONS)
 
@@ -70,22 +81,6 @@ STARTS = {"free": geometry.FreeOnset, "widest_gap": geometry.MaximumGapOnset, "l
 """Where the two-dimensional film of a bearing without openings starts, by name."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class ConservedOil:
-    """`film = {name = "jfo"}`: the film that conserves its oil, which is no quasi-static law; see `JFOFilm`.
-
-    Parameters
-    ----------
-    cells : tuple of int
-        Cells around the film and along half the length.
-    """
-
-    cells: tuple[int, int] = (144, 12)
-
-    def __post_init__(self) -> None:
-        require_conserved_cells(self.cells)
-
-
 FILMS: dict[str, Callable[[], reading.Keyed[FilmLaw | ConservedOil]]] = {
     # With grooves or several pads at ambient pressure that is `grooved_map` with its defaults.
     "map": lambda: reading.keys_of(journal.MapFilm),
@@ -98,7 +93,7 @@ FILMS: dict[str, Callable[[], reading.Keyed[FilmLaw | ConservedOil]]] = {
         cavitation=reading.Variant("kind", CAVITATIONS),
         film_start=reading.Variant("kind", STARTS),
     ),
-    "jfo": lambda: reading.Keyed(ConservedOil, {"cells": reading.COUNTS["cells"]}),
+    **CONSERVING,
     "short": lambda: reading.keys_of(journal.ShortFilm),
     "splitting": lambda: reading.keys_of(
         journal.SplittingFilm,
@@ -109,53 +104,6 @@ FILMS: dict[str, Callable[[], reading.Keyed[FilmLaw | ConservedOil]]] = {
     ),
 }
 """`film = {name = "map"}`: film laws by their names in scene files and at the command line."""
-
-
-class ConservingTable:
-    """The table of a bearing whose film may conserve its oil; it adds `film` and `bearing`."""
-
-    if TYPE_CHECKING:
-        film: Any
-        bearing: Any
-
-    @property
-    def conserves(self) -> bool:
-        """Whether the film is one that conserves its oil: named so, or with keys that no other takes."""
-        return isinstance(self.film, ConservedOil) or bool(self._supply_keys)
-
-    @property
-    def _supply_keys(self) -> list[str]:
-        return []
-
-    @property
-    def named_film(self) -> Any:
-        """The film law that the file names; None of one that conserves its oil."""
-        return None if isinstance(self.film, ConservedOil) else self.film
-
-    def require_law(self, what: str) -> None:
-        """Raise InputError if the film conserves its oil: it has no force in any motion, as that takes."""
-        if self.conserves:
-            keys = " and ".join(self._supply_keys or ["film"])
-            raise InputError(
-                f"film must be a quasi-static film law (leave out {keys}) for {what}, "
-                "got a mass-conserving (JFO) film"
-            )
-
-    def conserved(self, bearing: Any, cells: tuple[int, int] | None = None) -> JFOFilm:
-        """Return the film of a bearing that conserves its oil, on cells that by default are the file's."""
-        own = self.film if isinstance(self.film, ConservedOil) else ConservedOil()
-        return reading.made_from(JFOFilm, self, bearing=bearing, cells=cells or own.cells)
-
-    def build(self) -> Any:
-        """Return the bearing, or its film that conserves the oil; InputError for a bad value."""
-        bearing = self.bearing()
-        return self.conserved(bearing) if self.conserves else bearing
-
-
-def require_law(table: Any, what: str) -> None:
-    """Raise InputError if the film of any table conserves its oil, which has no force in any motion."""
-    if isinstance(table, ConservingTable):
-        table.require_law(what)
 
 
 ANGLES = reading.Several(reading.Quantity("rad"), 2, 2, "two angles, about x and about y")
@@ -275,11 +223,6 @@ class JournalTable(ConservingTable, OiledTable):
             journal.build_groove_map(bearing, report)
 
 
-def film_of_cells(film: JFOFilm) -> str:
-    """Return what a film that conserves its oil is called in print."""
-    return f"JFOFilm(cells={film.cells})"
-
-
 def feeling_tilt(bearing: JournalBearing, *, named: bool) -> MomentCarryingJournal:
     """Return a bearing at the closest level of tilt that its film has.
 
@@ -292,24 +235,7 @@ def feeling_tilt(bearing: JournalBearing, *, named: bool) -> MomentCarryingJourn
     return MomentCarryingJournal(bearing=bearing, level=level)
 
 
-# Which journals the map that comes with the package holds.
-
-
-TABLE_RANGE = (0.1, 4.0)
-"""Length / diameter of the map that is there from the start; other bearings have to make theirs."""
-
-
-def has_map(bearing: JournalBearing) -> bool:
-    """Return whether the map that comes with the package holds a bearing."""
-    low, high = TABLE_RANGE
-    return bearing.turbulence is None and bearing.geometry.plain and low <= bearing.slenderness <= high
-
-
 # What the physics of every rung leaves out, judged by dimensionless numbers.
-
-
-ATMOSPHERE = 1e5
-"""Ambient pressure [Pa], as much tension as a cavity that opens at vapor pressure takes."""
 
 
 COARSE = (48, 4)
@@ -387,37 +313,6 @@ def journal_numbers(
     }
 
 
-def film_numbers(
-    dimensions: tuple[float, float, float, float], oil: Lubricant, speed: float, load: tuple[float, float]
-) -> dict[str, float]:
-    """Return the numbers of `journal_numbers` that need no film.
-
-    Parameters
-    ----------
-    dimensions : (float, float, float, float) [m], [m], [m], [Pa s]
-        Radius, length, clearance and viscosity.
-    oil : Lubricant
-    speed : float [rad/s]
-    load : (float, float) [N]
-    """
-    (R, L, c, mu), omega = dimensions, abs(speed)
-    kinematic = mu / oil.density
-    compressed = compression(load, R, L, oil.bulk_modulus)
-    flow = film_reynolds(R, c, mu, oil.density, omega)
-    return {
-        "reynolds": flow.reynolds,
-        "taylor": flow.taylor,
-        "turbulence": flow.turbulence,
-        "taylor_limit": TAYLOR,
-        "turbulent": TURBULENT,
-        "inertia": omega * c**2 / kinematic,
-        "peclet": omega * c**2 * oil.density * oil.heat_capacity / oil.conductivity,
-        "pressure": compressed * oil.bulk_modulus / ATMOSPHERE,
-        "compression": compressed,
-        "tilt": 2e3 * c / L,
-    }
-
-
 def film_loss(
     bearing: JournalBearing,
     speed: float,
@@ -473,22 +368,12 @@ def film_remarks(
     own: Any = bearing if film is None else film.bearing
     if own.is_warming:
         remarks = isothermal(remarks)
-        own = warmed(own, film or _quick(own), speed, load)
+        own = warmed(own, load, speed, film or _quick(own))
         film = film and film.at_temperature(own.temperature)
     numbers = journal_numbers(own, oil, speed, load, film, at)
     if own.turbulence is not None:
         numbers["turbulence"] = 0.0
     return messages(remarks, numbers)
-
-
-def warmed(bearing: Any, quick: Any, speed: float, load: tuple[float, float]) -> Any:
-    """Return a bearing at the temperature of its balance, or of fresh oil where it has no rest."""
-    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
-        try:
-            temperature = equilibrium(quick, load, speed).temperature
-        except RotorfilmError:
-            temperature = None
-    return bearing.at_temperature(bearing.coldest() if temperature is None else temperature)
 
 
 # What an answer repeats of the question: the bearing in SI, and the film law that answered.

@@ -1,18 +1,20 @@
-"""`turbulence = "auto"` of a bearing's table: whether a film is turbulent, and what a scene says of it."""
+"""What tables of bearings with an oil film share: turbulence, a film that conserves its oil, its numbers."""
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Mapping
-from dataclasses import replace
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 from ..analysis import equilibrium
+from ..bearings.films.mass_conserving import require_conserved_cells
 from ..bearings.films.turbulence import CLOSURES, Turbulence, onset
 from ..bearings.journal import ExtrapolatedFilm, JFOFilm, JournalBearing, ReynoldsFilm
-from ..bearings.oil.oil import DENSITY, film_reynolds
-from ..core.errors import RotorfilmError, SceneError, ValidityWarning, brief
-from .reading import Keyed, Quantity, Table, choose, flag, one_of, takes
+from ..bearings.oil.oil import DENSITY, TAYLOR, TURBULENT, compression, film_reynolds
+from ..core.errors import InputError, RotorfilmError, SceneError, ValidityWarning, brief
+from .reading import COUNTS, Keyed, Quantity, Table, choose, flag, made_from, one_of, takes
+from .shared_tables import Lubricant
 
 AUTO, NONE = "auto", "none"
 """Laminar below the onset and turbulent above it; laminar at any Reynolds number."""
@@ -176,10 +178,14 @@ def quiet(call: Callable[..., Any], *arguments: Any) -> Any:
             return None
 
 
-def warmed(bearing: Any, load: tuple[float, float], speed: float) -> Any:
-    """Return a bearing at the temperature of its balance, or of fresh oil where it has no equilibrium."""
-    at = quiet(equilibrium, quick(bearing), load, speed)
-    return bearing.at_temperature(bearing.coldest() if at is None else at.temperature)
+def warmed(bearing: Any, load: tuple[float, float], speed: float, by: Any = None) -> Any:
+    """Return a bearing at the temperature of its balance, or of fresh oil where it has no equilibrium.
+
+    The balance is that of the bearing `by`, by default one with a film on a coarse grid.
+    """
+    at = quiet(equilibrium, by or quick(bearing), load, speed)
+    temperature = None if at is None else at.temperature
+    return bearing.at_temperature(bearing.coldest() if temperature is None else temperature)
 
 
 # What a scene says of a turbulent film.
@@ -223,3 +229,128 @@ def said_of(bearing: Any, at: Any, speed: float) -> str:
 
 def _without(effect: Turbulence) -> str:
     return "with a band" if effect.band is False else "without the band, behind which no measurement stands,"
+
+
+# The films of journals, lobes, dams and tilting pads: those that conserve their oil, their numbers.
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConservedOil:
+    """`film = {name = "jfo"}`: the film that conserves its oil, which is no quasi-static law; see `JFOFilm`.
+
+    Parameters
+    ----------
+    cells : tuple of int
+        Cells around the film and along half the length.
+    """
+
+    cells: tuple[int, int] = (144, 12)
+
+    def __post_init__(self) -> None:
+        require_conserved_cells(self.cells)
+
+
+CONSERVING: dict[str, Callable[[], Keyed[Any]]] = {
+    "jfo": lambda: Keyed(ConservedOil, {"cells": COUNTS["cells"]})
+}
+"""`film = {name = "jfo"}` of all bearings with a film."""
+
+
+class ConservingTable:
+    """The table of a bearing whose film may conserve its oil; it adds `film` and `bearing`."""
+
+    if TYPE_CHECKING:
+        film: Any
+        bearing: Any
+
+    @property
+    def conserves(self) -> bool:
+        """Whether the film is one that conserves its oil: named so, or with keys that no other takes."""
+        return isinstance(self.film, ConservedOil) or bool(self._supply_keys)
+
+    @property
+    def _supply_keys(self) -> list[str]:
+        return []
+
+    @property
+    def named_film(self) -> Any:
+        """The film law that the file names; None of one that conserves its oil."""
+        return None if isinstance(self.film, ConservedOil) else self.film
+
+    def require_law(self, what: str) -> None:
+        """Raise InputError if the film conserves its oil: it has no force in any motion, as that takes."""
+        if self.conserves:
+            keys = " and ".join(self._supply_keys or ["film"])
+            raise InputError(
+                f"film must be a quasi-static film law (leave out {keys}) for {what}, "
+                "got a mass-conserving (JFO) film"
+            )
+
+    def conserved(self, bearing: Any, cells: tuple[int, int] | None = None) -> JFOFilm:
+        """Return the film of a bearing that conserves its oil, on cells that by default are the file's."""
+        own = self.film if isinstance(self.film, ConservedOil) else ConservedOil()
+        return made_from(JFOFilm, self, bearing=bearing, cells=cells or own.cells)
+
+    def build(self) -> Any:
+        """Return the bearing, or its film that conserves the oil; InputError for a bad value."""
+        bearing = self.bearing()
+        return self.conserved(bearing) if self.conserves else bearing
+
+
+def require_law(table: Any, what: str) -> None:
+    """Raise InputError if the film of any table conserves its oil, which has no force in any motion."""
+    if isinstance(table, ConservingTable):
+        table.require_law(what)
+
+
+def film_of_cells(film: JFOFilm) -> str:
+    """Return what a film that conserves its oil is called in print."""
+    return f"JFOFilm(cells={film.cells})"
+
+
+# Which journals the map that comes with the package holds.
+
+
+TABLE_RANGE = (0.1, 4.0)
+"""Length / diameter of the map that is there from the start; other bearings have to make theirs."""
+
+
+def has_map(bearing: JournalBearing) -> bool:
+    """Return whether the map that comes with the package holds a bearing."""
+    low, high = TABLE_RANGE
+    return bearing.turbulence is None and bearing.geometry.plain and low <= bearing.slenderness <= high
+
+
+ATMOSPHERE = 1e5
+"""Ambient pressure [Pa], as much tension as a cavity that opens at vapor pressure takes."""
+
+
+def film_numbers(
+    dimensions: tuple[float, float, float, float], oil: Lubricant, speed: float, load: tuple[float, float]
+) -> dict[str, float]:
+    """Return the numbers of `journal_numbers` that need no film.
+
+    Parameters
+    ----------
+    dimensions : (float, float, float, float) [m], [m], [m], [Pa s]
+        Radius, length, clearance and viscosity.
+    oil : Lubricant
+    speed : float [rad/s]
+    load : (float, float) [N]
+    """
+    (R, L, c, mu), omega = dimensions, abs(speed)
+    kinematic = mu / oil.density
+    compressed = compression(load, R, L, oil.bulk_modulus)
+    flow = film_reynolds(R, c, mu, oil.density, omega)
+    return {
+        "reynolds": flow.reynolds,
+        "taylor": flow.taylor,
+        "turbulence": flow.turbulence,
+        "taylor_limit": TAYLOR,
+        "turbulent": TURBULENT,
+        "inertia": omega * c**2 / kinematic,
+        "peclet": omega * c**2 * oil.density * oil.heat_capacity / oil.conductivity,
+        "pressure": compressed * oil.bulk_modulus / ATMOSPHERE,
+        "compression": compressed,
+        "tilt": 2e3 * c / L,
+    }

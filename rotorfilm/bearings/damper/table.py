@@ -5,13 +5,19 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass, replace
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
-from ..bearings import damper as dampers
-from ..bearings.assemblies import Parallel, with_springs
-from ..bearings.films.geometry import FullFilm, HalfSommerfeld
-from ..core.errors import InputError, ValidityWarning, require_given, require_non_negative
-from .reading import Keyed, Taking, Variant, fields_of, made_from
+from ...core.errors import InputError, ValidityWarning, require_given, require_non_negative
+from ...rotors import RigidRotor
+from ...scenes.families import SceneModels
+from ...scenes.reading import Keyed, Taking, Variant, fields_of, made_from
+from ...scenes.shared_tables import BladeLossTable, RunUpTable, UnbalanceTable, require_kind, require_steps
+from .. import damper as dampers
+from ..assemblies import Parallel, with_springs
+from ..films.geometry import FullFilm, HalfSommerfeld
+
+if TYPE_CHECKING:
+    from ...scenes.scene import Scene
 
 # `[damper.seals]`: seals at both ends of a squeeze film, by leakage, by their gap or by a leak test.
 
@@ -218,3 +224,77 @@ class DamperTable(Taking):
         """Return the damper of a film that knows no supply, with its springs, if it has some."""
         damper = self.build()
         return with_springs(damper, self.stiffness) if self.stiffness else damper
+
+
+# Rotor and damper of a scene, as they are run.
+
+
+class DamperScene(NamedTuple):
+    """The models of a scene with a damper.
+
+    Attributes
+    ----------
+    rotor : RigidRotor
+        Rotor at the center of the damper, or its offset, at rest.
+    support : PorousDamper, Parallel or JFODamper
+    start : float [s]
+        When the excitation begins: until then nothing moves, and the run counts from there.
+    duration : float [s]
+    step : float [s]
+        Time between samples, or exchanges of a coupled run.
+    """
+
+    rotor: RigidRotor
+    support: dampers.PorousDamper | Parallel | dampers.JFODamper
+    start: float
+    duration: float
+    step: float
+
+
+def damper_models(scene: Scene) -> DamperScene:
+    """Return rotor and damper of a scene.
+
+    An unbalance is that of `[rigid_rotor]`, there from the start, or that of the excitation: `unbalance`,
+    `blade_loss` or `run_up`.
+
+    Raises
+    ------
+    InputError
+        If the scene lacks a damper or a rotor, has two unbalances, or another excitation.
+    """
+    excitation = scene.excitation
+    if scene.damper is None or scene.rigid_rotor is None:
+        raise InputError("damper and rigid_rotor are required for a run on a damper, got a scene without")
+    rotor, start, duration = scene.rigid_rotor.build(scene.speed, scene.damper.load), 0.0, 0.0
+    rotor = replace(rotor, position=scene.damper.offset)
+    require_kind(excitation, ("unbalance", "blade_loss", "run_up"))
+    if isinstance(excitation, UnbalanceTable):
+        rotor = excitation.given_to(rotor)
+    if isinstance(excitation, BladeLossTable):
+        start, duration = excitation.start, scene.time_of(2.0 * math.pi * excitation.revolutions)
+        rotor = replace(rotor, unbalance_angle=rotor.unbalance_angle + scene.speed * start)
+    if isinstance(excitation, RunUpTable):
+        profile = excitation.profile(scene.speed)
+        rotor, duration = replace(rotor, speed=profile), profile.times[-1]
+    duration = duration or scene.duration
+    require_steps("excitation", duration * abs(scene.speed), scene.cosimulation)
+    return DamperScene(rotor, scene.damper.support(), start, duration, scene.macro_step)
+
+
+def damper_fmus(scene: Scene) -> SceneModels:
+    """Return the damper of a scene, springs included, and its rotor, at rest in the center.
+
+    Raises
+    ------
+    InputError
+        As `damper_models`, and if the oil of the damper has mass.
+    """
+    if scene.damper is not None and scene.damper.density:
+        raise InputError(
+            "damper.density must be 0 for a damper apart from its rotor: an exchange of accelerations "
+            "diverges where the oil is heavier than the rotor; rotorfilm fmu build writes both as one "
+            "system.fmu, got "
+            f"{scene.damper.density!r}"
+        )
+    models = damper_models(scene)
+    return SceneModels("damper", models.support, models.rotor, {}, models.step, models.duration)

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ...core.errors import InputError
-from ..families import SceneModels
-from ..reading import Taking, fields_of, made_from
-from .sleeve_bearing import ViscousSleeve
+from ...scenes.families import SceneModels
+from ...scenes.reading import Taking, fields_of, made_from
+from .bearing import ViscousSleeve
 
 if TYPE_CHECKING:
-    from ..scene import Scene
+    from ...scenes.scene import Scene
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,22 +7,33 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
-from ..analysis import equilibrium
-from ..bearings import pads as pad_bearings
-from ..bearings.films.turbulence import Turbulence
-from ..bearings.journal import JFOFilm
-from ..core.errors import InputError
-from ..core.progress import Report
-from ..core.readable import Readable
-from .families import isothermal, messages, remarks_of
-from .film_rungs import minimum_radial_clearance
-from .journal_tables import FILMS, ConservedOil, ConservingTable, film_numbers, film_of_cells, warmed
-from .reading import Count, Keyed, Quantity, Several, Variant, fields_of, keys_of, made_from, one_of
-from .shared_tables import Lubricant, OiledTable
-from .turbulent import AUTO, effect_of, read_turbulence, turbulent_remarks, without_oil
+from ...analysis import equilibrium
+from ...core.errors import InputError
+from ...core.progress import Report
+from ...core.readable import Readable
+from ...scenes.families import isothermal, messages, remarks_of
+from ...scenes.film_rungs import minimum_radial_clearance
+from ...scenes.oil_film_tables import (
+    AUTO,
+    CONSERVING,
+    ConservedOil,
+    ConservingTable,
+    effect_of,
+    film_numbers,
+    film_of_cells,
+    read_turbulence,
+    turbulent_remarks,
+    warmed,
+    without_oil,
+)
+from ...scenes.reading import Count, Keyed, Quantity, Several, Variant, fields_of, keys_of, made_from, one_of
+from ...scenes.shared_tables import Lubricant, OiledTable
+from .. import pads as pad_bearings
+from ..films.turbulence import Turbulence
+from ..journal import JFOFilm
 
 if TYPE_CHECKING:
-    from .scene import Scene
+    from ...scenes.scene import Scene
 
 # The films of pads in scene files: schema 1.
 
@@ -33,10 +44,9 @@ PAD_FILMS: dict[str, Callable[[], Keyed[pad_bearings.PadFilm]]] = {
 }
 """`film = {name = "map"}`: the films of a pad by their names."""
 
-JFO = {"jfo": FILMS["jfo"]}
-"""That of all pads which conserves its oil."""
-
-FilmOfPads = Annotated[pad_bearings.PadFilm | ConservedOil | None, Variant("name", {**PAD_FILMS, **JFO})]
+FilmOfPads = Annotated[
+    pad_bearings.PadFilm | ConservedOil | None, Variant("name", {**PAD_FILMS, **CONSERVING})
+]
 """What `film` may name."""
 
 
@@ -263,7 +273,7 @@ def pad_remarks(bearing: AnyPads, oil: Lubricant, speed: float, load: tuple[floa
     common, own = isothermal(remarks_of("journal")), remarks_of("hot", "pads")
     if bearing.oil is not None:
         own = isothermal(own)
-        bearing = warmed(bearing, quick_pads(bearing), speed, load) if bearing.is_warming else bearing
+        bearing = warmed(bearing, load, speed, quick_pads(bearing)) if bearing.is_warming else bearing
     numbers = pad_numbers(bearing, oil, speed, load)
     if bearing.turbulence is not None:
         numbers["turbulence"] = 0.0
@@ -369,7 +379,7 @@ class DamTable(PadTable):
     film_key = "cells"
     pads: tuple[pad_bearings.RecessedPad, ...] = ()
     cells: tuple[int, int] | None = None
-    film: Annotated[ConservedOil | None, Variant("name", JFO)] = None
+    film: Annotated[ConservedOil | None, Variant("name", CONSERVING)] = None
 
     def __post_init__(self) -> None:
         given = self.given((*NEEDED, *FURTHER))

@@ -1,16 +1,18 @@
-"""The damping of a viscous sleeve: by a short film, then by one of finite length."""
+"""The damping of a viscous sleeve: by a short film, then by one of finite length; what both leave out."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from ...core.answers import CandidateRung, ErrorEstimate, Ladder, RungResult, Work, WorkUnit
-from .sleeve_bearing import ViscousSleeve
-from .sleeve_remarks import sleeve_remarks
+from ...scenes.families import Remark, messages
+from ...scenes.shared_tables import Lubricant
+from .bearing import ViscousSleeve
 
 if TYPE_CHECKING:
-    from ..scene import Scene
+    from ...scenes.scene import Scene
 
 ROUNDOFF = 1e-14
 
@@ -71,6 +73,18 @@ class SleeveRung(CandidateRung):
 
 
 FORMULAS = WorkUnit("formulas of a sleeve")
+
+REMARKS = (
+    Remark("taylor", 41.2, "turbulence: Taylor vortices above 41.2, the film has {taylor:.3g}"),
+    Remark("thickness", 0.01, "thick film: its clearance is {thickness:.1%} of the radius"),
+)
+
+
+def sleeve_remarks(sleeve: ViscousSleeve, oil: Lubricant, speed: float) -> tuple[str, ...]:
+    """Return what is left out and should not be, one line each, at a speed [rad/s]."""
+    thickness = sleeve.clearance / sleeve.radius
+    reynolds = abs(speed) * sleeve.radius * sleeve.clearance * oil.density / sleeve.viscosity
+    return messages(REMARKS, {"taylor": reynolds * math.sqrt(thickness), "thickness": thickness})
 
 
 def sleeve_ladder(scene: Scene, quantity: str) -> Ladder:

@@ -10,23 +10,23 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..analysis import coefficients, equilibrium
-from ..analysis.harmonic_balance import StatefulTurn, TurnEquations, basis, first_wave, resampled
-from ..bearings import pads
-from ..core.answers import DISAGREEMENT, ErrorEstimate, Ladder, RungResult, Work, WorkUnit
-from ..core.errors import FilmContactError
-from ..core.model import Array
-from ..core.port import at_balanced_temperature
-from ..core.results import Equilibrium
-from ..scenes.film_rungs import CALL_TIME, CELL_TIME, STEP, Corrected, FilmCandidate, corrected, grid_name
-from ..scenes.pad_tables import pad_film_name, quasi_static_scene
-from .film_motions import OrbitRung, orbit_ladder, wave_change, wave_value
-from .film_statics import static_ladder, whirl_ladder
-from .journal import film_ladders
-from .quantities import FORCE, ORBIT_UNITS as ORBITS, QUANTITIES
+from ...analysis import coefficients, equilibrium
+from ...analysis.harmonic_balance import StatefulTurn, TurnEquations, basis, first_wave, resampled
+from ...core.answers import DISAGREEMENT, ErrorEstimate, Ladder, RungResult, Work, WorkUnit
+from ...core.errors import FilmContactError
+from ...core.model import Array
+from ...core.port import at_balanced_temperature
+from ...core.results import Equilibrium
+from ...questions.film_ladders import film_ladders
+from ...questions.film_motions import OrbitRung, orbit_ladder, wave_change, wave_value
+from ...questions.film_statics import static_ladder, whirl_ladder
+from ...questions.quantities import FORCE, ORBIT_UNITS as ORBITS, QUANTITIES
+from ...scenes.film_rungs import CALL_TIME, CELL_TIME, STEP, Corrected, FilmCandidate, corrected, grid_name
+from .. import pads
+from .table import pad_film_name, quasi_static_scene
 
 if TYPE_CHECKING:
-    from ..scenes.scene import Scene
+    from ...scenes.scene import Scene
 
 # The films that may answer for a bearing of fixed pads, the cheapest first, and what is richer.
 

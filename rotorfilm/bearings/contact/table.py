@@ -11,20 +11,20 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 
-from ..bearings import contact as contacts
-from ..core.answers import WorkUnit
-from ..core.errors import ConvergenceError, InputError, require_non_negative
-from ..core.limits import CONTACT_CELLS, LAW_STATES, SWING_RATE, TRANSITS, require_at_most
-from ..core.model import Array, breakpoints
-from ..core.progress import Report, silent
-from ..core.readable import Readable
-from ..core.results import Trajectory
-from .families import messages, remarks_of
-from .reading import Count, Taking, fields_of, made_from
-from .shared_tables import Lubricant, SineLoadTable, StepLoadTable
+from ...core.answers import WorkUnit
+from ...core.errors import ConvergenceError, InputError, require_non_negative
+from ...core.limits import CONTACT_CELLS, LAW_STATES, SWING_RATE, TRANSITS, require_at_most
+from ...core.model import Array, breakpoints
+from ...core.progress import Report, silent
+from ...core.readable import Readable
+from ...core.results import Trajectory
+from ...scenes.families import messages, remarks_of
+from ...scenes.reading import Count, Taking, fields_of, made_from
+from ...scenes.shared_tables import Lubricant, SineLoadTable, StepLoadTable
+from .. import contact as contacts
 
 if TYPE_CHECKING:
-    from .scene import Scene
+    from ...scenes.scene import Scene
 
 
 @dataclass(frozen=True, kw_only=True)

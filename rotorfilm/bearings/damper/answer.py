@@ -9,23 +9,23 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .. import analysis
-from ..bearings.assemblies import with_springs
-from ..bearings.damper import DamperGroups, JFODamper, damper_groups
-from ..core.errors import ContactError, InputError
-from ..core.model import Array
-from ..core.port import Reaction, largest_eccentricity_ratio
-from ..core.progress import Report, silent
-from ..core.readable import Drawable, Readable
-from ..core.results import CircularOrbit, Trajectory
-from ..cosim import CoSimulation, cosimulate
-from ..rotors import RigidRotor
-from .damper_films import DamperScene, damper_models
-from .export_scene import export_scene
-from .shared_tables import UnbalanceTable
+from ... import analysis
+from ...core.errors import ContactError, InputError
+from ...core.model import Array
+from ...core.port import Reaction, largest_eccentricity_ratio
+from ...core.progress import Report, silent
+from ...core.readable import Drawable, Readable
+from ...core.results import CircularOrbit, Trajectory
+from ...cosim import CoSimulation, cosimulate
+from ...rotors import RigidRotor
+from ...scenes.export_scene import export_scene
+from ...scenes.shared_tables import UnbalanceTable
+from ..assemblies import with_springs
+from . import DamperGroups, JFODamper, damper_groups
+from .table import DamperScene, damper_models
 
 if TYPE_CHECKING:
-    from .scene import Scene
+    from ...scenes.scene import Scene
 
 
 @dataclass(frozen=True, kw_only=True)

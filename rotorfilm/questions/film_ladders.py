@@ -1,17 +1,14 @@
-"""What journal bearings bring to scenes and questions."""
+"""The ladders of a bearing with a film, by quantity, of two sets of candidates."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from functools import partial
 from typing import TYPE_CHECKING
 
-from ..bearings.journal import HeldTilt, TiltLevel
 from ..core.answers import Ladder
-from ..scenes.film_rungs import FilmCandidate, point_films, turn_films
-from ..scenes.tilted_films import tilted_films
 from .film_statics import Films, static_ladder, whirl_ladder
-from .quantities import ORBIT_UNITS, QUANTITIES
+from .quantities import ORBIT_UNITS
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -57,31 +54,3 @@ def _coupling_ladder(scene: Scene, quantity: str) -> Ladder:
     from .coupling import coupling_ladder
 
     return coupling_ladder(scene, quantity)
-
-
-def journal_points(scene: Scene) -> Sequence[FilmCandidate]:
-    """Return the films of a journal bearing for some equilibria, or its levels with a tilt."""
-    if scene.journal.tilt is not None:
-        return tilted_points(scene)
-    return point_films(scene.journal_bearing, fixed=scene.film_is_given)
-
-
-def journal_turns(scene: Scene) -> Sequence[FilmCandidate]:
-    """Return those for states all round a turn: the map where there is one, else short film, grids, map."""
-    if scene.journal.tilt is not None:
-        return tilted_points(scene)
-    return turn_films(scene.journal_bearing, fixed=scene.film_is_given, grids=((48, 8), (96, 8)), maps=True)
-
-
-def tilted_points(scene: Scene) -> Sequence[FilmCandidate]:
-    """Return the levels of a journal that keeps a tilt."""
-    tilt = scene.journal.tilt
-    return tilted_films(
-        scene.journal_bearing,
-        fixed=scene.film_is_given,
-        levels={*TiltLevel} - {TiltLevel.CLOSED_FORM},  # whose force is that without tilt
-        made=lambda journal: HeldTilt(journal=journal, tilt=tilt),
-    )
-
-
-LADDERS = film_ladders(journal_points, journal_turns, QUANTITIES)

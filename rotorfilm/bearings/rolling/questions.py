@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..bearings import rolling
-from ..core.answers import ErrorEstimate, Ladder, RungResult, WorkUnit, beside_bound, relative_change
-from ..core.errors import InputError, RotorfilmError
-from ..core.model import Array
-from ..scenes import rolling as rolling_scene
-from .variants import FunctionRung
+from ...core.answers import ErrorEstimate, Ladder, RungResult, WorkUnit, beside_bound, relative_change
+from ...core.errors import InputError, RotorfilmError
+from ...core.model import Array
+from ...questions.variants import FunctionRung
+from .. import rolling
+from . import table as rolling_scene
 
 if TYPE_CHECKING:
-    from ..scenes.scene import Scene
+    from ...scenes.scene import Scene
 
 # What is asked of a shaft at rest in its ball bearing.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..analysis import CriticalMass, critical_mass, equilibrium, threshold_near, whirl_threshold
+from ..analysis import CriticalMass, critical_mass, equilibrium, whirl_threshold
 from ..analysis.coefficients import film_coefficients
 from ..bearings.journal import JFOFilm
 from ..core.errors import ConvergenceError
@@ -86,16 +86,3 @@ def _whirling_mass(film: Coefficients) -> CriticalMass:
         return critical_mass(film)
     except ConvergenceError as error:
         return CriticalMass(mass=None, whirl_frequency=None, whirl_ratio=None, reason=str(error))
-
-
-def conserved_threshold(film: JFOFilm, load: tuple[float, float], mass: float, start: float) -> float:
-    """Return the speed at which the whirl of a rigid rotor begins [rad/s], the nearest to `start`.
-
-    Raises
-    ------
-    AbsentError, ConvergenceError
-        As `threshold_near`.
-    """
-    found = threshold_near(film, load, mass, start).speed
-    assert found is not None  # or there is an error
-    return found

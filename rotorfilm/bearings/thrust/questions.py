@@ -8,17 +8,17 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..bearings.thrust import TiltingThrustBearing
-from ..core.answers import HEATED, ISOTHERMAL, ErrorEstimate, Ladder, RungResult
-from ..core.errors import InputError
-from ..scenes.shared_tables import oil_remarks
-from ..scenes.thrust import ThrustRest, ThrustTable, film_name, rest_at_film, thrust_remarks, thrust_rest
-from .heat_levels import BALANCED, FRESH, HeatLevel
-from .quantities import relative, relative_rise
-from .variants import FunctionRung, counted_rung
+from ...core.answers import HEATED, ISOTHERMAL, ErrorEstimate, Ladder, RungResult
+from ...core.errors import InputError
+from ...questions.heat_levels import BALANCED, FRESH, HeatLevel
+from ...questions.quantities import relative, relative_rise
+from ...questions.variants import FunctionRung, counted_rung
+from ...scenes.shared_tables import oil_remarks
+from . import TiltingThrustBearing
+from .table import ThrustRest, ThrustTable, film_name, rest_at_film, thrust_remarks, thrust_rest
 
 if TYPE_CHECKING:
-    from ..scenes.scene import Scene
+    from ...scenes.scene import Scene
 
 GRIDS = ((32, 16), (64, 32), (128, 64))
 """Cells around a pad and across it."""
