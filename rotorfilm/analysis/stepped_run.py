@@ -431,7 +431,7 @@ class SteppedLoop:
     def _key(self, t: float, dt: float, last: float) -> tuple[float, ...]:
         growth = dt / last if last > 0.0 else math.inf
         speed = float(self.rotor.output(t, self.rotor.initial_state, self._none)[self._motion[4]])
-        return speed, float(f"{dt:.12e}"), round(growth, 12) if growth <= MOST_GROWTH else 0.0
+        return speed, float(f"{dt:.9e}"), round(growth, 9) if growth <= MOST_GROWTH else 0.0
 
     def march(
         self, before: Moment | None, now: Moment, lengths: list[float]
@@ -559,11 +559,12 @@ class SteppedLoop:
         free = frame.inverse @ (pushed - frame.last * states[1] - frame.older * states[0])
         places = frame.sense.reshape(len(films), 5, -1)[:, :2].reshape(2 * len(films), -1)
         x, near, compliance = self._within(frame, drive, states[1], drive.start), films, places @ frame.gain
-        for _ in range(MOST_ROUNDS):
+        for rounds in range(MOST_ROUNDS):
             motions = (offset + frame.sense @ x).reshape(-1, 5)
             given = zip(self.stations, films, motions, near, strict=True)
             trials = [s.film.attempt(film, motion, dt, guess) for s, film, motion, guess in given]
-            near = tuple(trial.state for trial in trials)
+            if rounds == 0:  # later ones would let transport jump from one trial to the next
+                near = tuple(trial.state for trial in trials)
             force = np.concatenate([trial.output[:2] for trial in trials])
             slopes = compliance @ (stiffness := block_diag(*(trial.stiffness for trial in trials)))
             way = np.linalg.solve(np.eye(len(force)) + slopes, places @ (free - x) + compliance @ force)

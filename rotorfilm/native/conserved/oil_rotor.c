@@ -16,6 +16,7 @@ typedef struct meeting {
     rf_oil_traveler *travelers;
     size_t rows, *block; /* where the block of each film begins */
     double *tried;       /* blocks of the last trial */
+    double *first;       /* those of the first one, by which the others know transport, so that it does not jump with them */
     double *free, *x, *moved;
     double *here, *there; /* motions */
     double *force, *stiffness, *compliance, *matrix, *change;
@@ -33,6 +34,7 @@ static size_t lay_out(meeting *self, double *memory, size_t blocks)
 {
     const size_t n = self->rotor->states, rows = self->rows, motions = RF_MOTION * self->rotor->films;
     size_t at = reserve(&self->tried, memory, 0, blocks);
+    at = reserve(&self->first, memory, at, blocks);
     at = reserve(&self->free, memory, at, n);
     at = reserve(&self->x, memory, at, n);
     at = reserve(&self->moved, memory, at, n);
@@ -173,10 +175,12 @@ static int meet(meeting *self, const double *offset, double dt, double time, con
     double size = 0.0;
     int status = go_within(self, offset, time, &size, why);
     for (int round = 0; round < MOST_ROUNDS && status == RF_OK; ++round) {
-        status = try_films(self, offset, dt, blocks, round > 0 ? self->tried : blocks, done + 2);
+        status = try_films(self, offset, dt, blocks, round > 0 ? self->first : blocks, done + 2);
         if (status != RF_OK)
             return rf_say(why, status, "the search for the ruptured zone of a mass-conserving film did not end: "
                           "the film may have no supply, or be too thin for the cells");
+        if (round == 0)
+            memcpy(self->first, self->tried, (size_t)(self->first - self->tried) * sizeof *self->first);
         set_moved(self);
         status = go_within(self, offset, time, &size, why);
         ++done[1];
@@ -229,7 +233,7 @@ int rf_oil_march(const rf_oil_rotor *rotor, size_t count, const double *lengths,
         if (status != RF_OK)
             break;
         memcpy(states + (k + 2) * n, self.x, n * sizeof *states);
-        memcpy(blocks, self.tried, (size_t)(self.free - self.tried) * sizeof *blocks);
+        memcpy(blocks, self.tried, (size_t)(self.first - self.tried) * sizeof *blocks);
         set_answers(&self, answers + k * rotor->films * RF_OIL_ANSWERS);
         done[0] = (int64_t)k + 1;
     }

@@ -304,15 +304,24 @@ def test_the_compiled_loop_makes_the_steps_of_the_loop_in_python(rest):
             np.testing.assert_allclose(row, runs[1][name], rtol=0.0, atol=1e-9 * size, err_msg=name)
 
 
-def test_steps_of_the_compiled_loop_that_fail_are_halved(rest):
-    light = RigidRotor(mass=50.0, speed=200.0, unbalance=1e-3, position=(2e-5, -4e-5))
+def test_transport_does_not_jump_between_the_trials_of_a_step():
+    # The limiter jumps as a cell fills: a force that follows it leaves Newton no end in any step.
     size = {"radius": R, "length": 0.03, "clearance": c, "viscosity": 0.05}
     bearing = JournalBearing(**size, grooves=(Groove(center=np.pi / 2, width=0.3),))
-    films = [kind(bearing=bearing, cells=(24, 4)) for kind in (JFOFilm, InPython)]
-    runs = [simulate(light, film, duration=0.002, max_step=0.0314 / 48) for film in films]
-    assert runs[0].work == runs[1].work
-    assert runs[0].work["restarts"] > 0
-    np.testing.assert_allclose(runs[0]["y"], runs[1]["y"], rtol=0.0, atol=1e-9 * c)
+    light, end = RigidRotor(mass=30.0, speed=200.0, unbalance=1e-4), 0.0314
+    films = [kind(bearing=bearing, cells=(24, 4)) for kind in (JFOFilm, JFOFilm, InPython, JFOFilm)]
+    steps = (192, 96, 48, 48)
+    given = {"duration": end, "samples": 9}
+    runs = [simulate(light, film, max_step=end / n, **given) for film, n in zip(films, steps, strict=True)]
+    fine, coarse, alike = (np.abs(b.position - a.position).max() / c for a, b in itertools.pairwise(runs))
+    assert fine < 0.5 * coarse < 1e-3
+    assert alike < 1e-9
+    for run, count in zip(runs, steps, strict=True):
+        assert run.work["restarts"] == 0
+        assert run.work["newton_steps"] < 3.5 * count
+
+
+def test_steps_of_the_compiled_loop_that_fail_are_halved(rest):
     fallen = []
     for kind in (JFOFilm, InPython):
         thrown, film = rotor(rest, static_force=(0.0, -4e5)), kind(bearing=BEARING, cells=(24, 4))
@@ -320,7 +329,8 @@ def test_steps_of_the_compiled_loop_that_fail_are_halved(rest):
             simulate(thrown, film, duration=TURN, samples=99, max_step=TURN / 32)
         fallen.append(caught.value)
     assert str(fallen[0]) == str(fallen[1])
-    assert fallen[0].partial.work == fallen[1].partial.work
+    # The compiled loop makes several steps before it is seen that the first of them reached the wall.
+    assert fallen[0].partial.work["restarts"] == fallen[1].partial.work["restarts"] > 0
     np.testing.assert_allclose(fallen[0].partial["y"], fallen[1].partial["y"], rtol=1e-9)
 
 
