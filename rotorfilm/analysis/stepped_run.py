@@ -559,12 +559,11 @@ class SteppedLoop:
         free = frame.inverse @ (pushed - frame.last * states[1] - frame.older * states[0])
         places = frame.sense.reshape(len(films), 5, -1)[:, :2].reshape(2 * len(films), -1)
         x, near, compliance = self._within(frame, drive, states[1], drive.start), films, places @ frame.gain
-        for rounds in range(MOST_ROUNDS):
+        for _ in range(MOST_ROUNDS):
             motions = (offset + frame.sense @ x).reshape(-1, 5)
             given = zip(self.stations, films, motions, near, strict=True)
             trials = [s.film.attempt(film, motion, dt, guess) for s, film, motion, guess in given]
-            if rounds == 0:  # later ones would let transport jump from one trial to the next
-                near = tuple(trial.state for trial in trials)
+            near = tuple(trial.state for trial in trials)
             force = np.concatenate([trial.output[:2] for trial in trials])
             slopes = compliance @ (stiffness := block_diag(*(trial.stiffness for trial in trials)))
             way = np.linalg.solve(np.eye(len(force)) + slopes, places @ (free - x) + compliance @ force)

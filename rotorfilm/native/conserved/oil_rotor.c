@@ -8,6 +8,7 @@
 
 #define CONVERGED 1e-9 /* last Newton step, in `scale` */
 #define MOST_ROUNDS 12
+#define SMALL 1e-3  /* first Newton step, in `scale`, after which the second one has the same stiffness */
 #define NEAREST 0.1 /* part of the gap that a Newton step leaves */
 
 /* The work of a step; matrices and vectors of the journals have two rows for each film. */
@@ -16,7 +17,6 @@ typedef struct meeting {
     rf_oil_traveler *travelers;
     size_t rows, *block; /* where the block of each film begins */
     double *tried;       /* blocks of the last trial */
-    double *first;       /* those of the first one, by which the others know transport, so that it does not jump with them */
     double *free, *x, *moved;
     double *here, *there; /* motions */
     double *force, *stiffness, *compliance, *matrix, *change;
@@ -34,7 +34,6 @@ static size_t lay_out(meeting *self, double *memory, size_t blocks)
 {
     const size_t n = self->rotor->states, rows = self->rows, motions = RF_MOTION * self->rotor->films;
     size_t at = reserve(&self->tried, memory, 0, blocks);
-    at = reserve(&self->first, memory, at, blocks);
     at = reserve(&self->free, memory, at, n);
     at = reserve(&self->x, memory, at, n);
     at = reserve(&self->moved, memory, at, n);
@@ -124,8 +123,8 @@ static int go_within(meeting *self, const double *offset, double time, double *s
     return RF_OK;
 }
 
-/* Forces of films and springs where the state is, and their stiffness. */
-static int try_films(meeting *self, const double *offset, double dt, const double *blocks, const double *near,
+/* Forces of films and springs where the state is, and, unless it stays, their stiffness. */
+static int try_films(meeting *self, const double *offset, double dt, const double *blocks, const double *near, int stays,
                      int64_t *solutions)
 {
     const rf_oil_rotor *rotor = self->rotor;
@@ -134,12 +133,12 @@ static int try_films(meeting *self, const double *offset, double dt, const doubl
     for (size_t k = 0; k < rotor->films && status == RF_OK; ++k) {
         double *end = self->tried + self->block[k], *stiffness = self->stiffness + 4 * k;
         status = rf_try_oil(self->travelers + k, blocks + self->block[k], near + self->block[k],
-                            self->here + RF_MOTION * k, dt, end, stiffness, solutions);
+                            self->here + RF_MOTION * k, dt, end, stays ? NULL : stiffness, solutions);
         for (size_t i = 0; i < 2; ++i) {
             self->force[2 * k + i] = end[RF_OIL_ANSWER + i] - rotor->springs[k] * self->here[RF_MOTION * k + i];
-            stiffness[3 * i] += rotor->springs[k];
+            stiffness[3 * i] += stays ? 0.0 : rotor->springs[k];
         }
-        *solutions += 1;
+        *solutions += !stays;
     }
     return status;
 }
@@ -175,12 +174,11 @@ static int meet(meeting *self, const double *offset, double dt, double time, con
     double size = 0.0;
     int status = go_within(self, offset, time, &size, why);
     for (int round = 0; round < MOST_ROUNDS && status == RF_OK; ++round) {
-        status = try_films(self, offset, dt, blocks, round > 0 ? self->first : blocks, done + 2);
+        const double *near = round > 0 ? self->tried : blocks;
+        status = try_films(self, offset, dt, blocks, near, round == 1 && size < SMALL, done + 2);
         if (status != RF_OK)
             return rf_say(why, status, "the search for the ruptured zone of a mass-conserving film did not end: "
                           "the film may have no supply, or be too thin for the cells");
-        if (round == 0)
-            memcpy(self->first, self->tried, (size_t)(self->first - self->tried) * sizeof *self->first);
         set_moved(self);
         status = go_within(self, offset, time, &size, why);
         ++done[1];
@@ -194,15 +192,18 @@ static int meet(meeting *self, const double *offset, double dt, double time, con
     return rf_say(why, RF_STUCK, "Newton's method must end in the step to t = %.9g s", time);
 }
 
-/* What a step of the rotor is without films, and where it begins to look. */
-static void prepare(meeting *self, const double *drive, const double *start, const double *now)
+/* What a step of the rotor is without films, and where it begins to look: on the line through the last two states, after
+   `equal` steps of one length on the polynomial through up to four. */
+static void prepare(meeting *self, const double *drive, const double *start, const double *now, size_t equal)
 {
     const rf_oil_rotor *rotor = self->rotor;
     const size_t n = rotor->states;
     const double *before = now - n;
     for (size_t k = 0; k < n; ++k) {
+        const double bent = equal > 1 ? now[k] - 2.0 * before[k] + *(before + k - n) : 0.0;
+        const double turned = equal > 2 ? bent - (before[k] - 2.0 * *(before + k - n) + *(before + k - 2 * n)) : 0.0;
         self->x[k] = drive[k] - rotor->last * now[k] - rotor->older * before[k];
-        self->moved[k] = start ? start[k] : now[k] + rotor->growth * (now[k] - before[k]);
+        self->moved[k] = start ? start[k] : now[k] + rotor->growth * (now[k] - before[k]) + bent + turned;
     }
     memset(self->free, 0, n * sizeof *self->free);
     rf_add_product(n, n, 1.0, rotor->inverse, self->x, self->free);
@@ -228,12 +229,12 @@ int rf_oil_march(const rf_oil_rotor *rotor, size_t count, const double *lengths,
     int status = open_meeting(&self, rotor, why);
     memset(done, 0, 3 * sizeof *done);
     for (size_t k = 0; k < count && status == RF_OK; ++k) {
-        prepare(&self, drive + k * n, k > 0 ? NULL : start, states + (k + 1) * n);
+        prepare(&self, drive + k * n, k > 0 ? NULL : start, states + (k + 1) * n, rotor->growth == 1.0 ? k + 1 : 0);
         status = meet(&self, offset + k * motions, lengths[k], time[k], blocks, done, why);
         if (status != RF_OK)
             break;
         memcpy(states + (k + 2) * n, self.x, n * sizeof *states);
-        memcpy(blocks, self.tried, (size_t)(self.first - self.tried) * sizeof *blocks);
+        memcpy(blocks, self.tried, (size_t)(self.free - self.tried) * sizeof *blocks);
         set_answers(&self, answers + k * rotor->films * RF_OIL_ANSWERS);
         done[0] = (int64_t)k + 1;
     }

@@ -6,7 +6,6 @@
 
 #include "../status.h"
 
-#define MOST_GROWTH 2.0 /* of a step over the last one, up to which differences take both (stable to 2.41) */
 #define EMPTY (-1e-9)   /* content below which a difference took more oil from a cell than it had */
 #define STILL 1e-13     /* change of theta at which the steady film stands */
 #define STILL_ENOUGH 1e-9 /* change that it must have come below at the end */

@@ -5,6 +5,8 @@
 #include "oil_search.h"
 #include "oil_shape.h"
 
+#define MOST_GROWTH 2.0 /* of a step over the last one, up to which differences take both (stable to 2.41) */
+
 /* Oil theta H of every cell, now and before the last step, N x M; the length of that, 0 where there was none. */
 typedef struct rf_oil_past {
     const double *content, *before;

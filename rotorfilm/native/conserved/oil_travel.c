@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SWEEPS 2   /* films in an inner step */
 #define HALVINGS 4 /* times that all inner steps are halved before a step is given up */
 #define MOST_PIECES 1e6
 
@@ -156,25 +155,31 @@ static void set_between(const double *begin, const double *end, double dt, doubl
     motion[4] = begin[4] + s * (end[4] - begin[4]);
 }
 
-/* One inner step, from a film that is near that at its end. */
-static int inner_step(rf_oil_traveler *self, const double *motion, double dt, const double *near, int sweeps, int64_t *solutions)
+/* Set theta at the end of a step as the last two contents foresee it, which is how transport differs from upstream values. */
+static void foresee(rf_oil_traveler *self, const rf_oil_gap *gap, double dt)
+{
+    const double last = self->block[RF_OIL_LENGTH], growth = last > 0.0 && dt <= MOST_GROWTH * last ? dt / last : 0.0;
+    const double *now = row(self, 0), *before = row(self, 1), *full = row(self, 4);
+    for (size_t q = 0; q < self->all; ++q) {
+        const double content = now[q] + growth * (now[q] - before[q]);
+        self->found.theta[q] = full[q] != 0.0 ? 1.0 : fmin(fmax(content / gap->line[q], 0.0), 1.0);
+    }
+}
+
+/* One inner step, from the cells that are full in a film near that at its end. */
+static int inner_step(rf_oil_traveler *self, const double *motion, double dt, const double *near, int64_t *solutions)
 {
     if (!(least_film(self->film, motion) > 0.0))
         return RF_STUCK;
     const rf_oil_gap gap = gap_of(self, motion);
     const rf_oil_past past = {row(self, 0), row(self, 1), self->block[RF_OIL_LENGTH]};
-    const double *theta = near + RF_OIL_CELLS + 3 * self->all, *full = theta + self->all;
-    memcpy(self->found.theta, theta, self->all * sizeof(double));
+    const double *full = near + RF_OIL_CELLS + 4 * self->all;
+    foresee(self, &gap, dt);
     for (size_t q = 0; q < self->all; ++q)
         self->found.full[q] = full[q] != 0.0;
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
-        const int status =
-            rf_oil_step(&self->film->shape, &gap, self->film->carrying * motion[4], &past, dt, &self->found);
-        *solutions += self->found.work.solutions;
-        if (status != RF_OK)
-            return status;
-    }
-    return keep(self, &gap, motion, dt);
+    const int status = rf_oil_step(&self->film->shape, &gap, self->film->carrying * motion[4], &past, dt, &self->found);
+    *solutions += self->found.work.solutions;
+    return status == RF_OK ? keep(self, &gap, motion, dt) : status;
 }
 
 /* -d force / d place of what was just found: the oil of the last step stays. */
@@ -202,7 +207,7 @@ int rf_try_oil(rf_oil_traveler *self, const double *block, const double *near, c
 {
     const size_t bytes = rf_oil_numbers(&self->film->shape) * sizeof *block;
     memcpy(self->block, block, bytes);
-    int status = inner_step(self, motion, dt, near, 1, solutions);
+    int status = inner_step(self, motion, dt, near, solutions);
     if (status == RF_OK && stiffness)
         status = set_stiffness(self, motion, stiffness);
     for (size_t k = 0; k < RF_OIL_FLOWS; ++k)
@@ -240,7 +245,7 @@ static int follow(rf_oil_traveler *self, double t, const double *begin, const do
         int status = require_inside(self->film, motion, time, why);
         if (status != RF_OK)
             return status;
-        status = judged(inner_step(self, motion, length, self->block, SWEEPS, work + 1), time, motion, why);
+        status = judged(inner_step(self, motion, length, self->block, work + 1), time, motion, why);
         if (status != RF_OK)
             return status;
         for (size_t i = 0; i < RF_OIL_FLOWS; ++i)

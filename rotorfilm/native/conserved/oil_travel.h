@@ -55,15 +55,15 @@ void rf_close_traveler(rf_oil_traveler *self);
 /* Begin with the steady film of a journal at rest in a motion. RF_AT_WALL, RF_STUCK, RF_MEMORY. */
 RF_EXPORT_LOOP int rf_oil_begin(const rf_oil_film_si *film, const double *motion, double *block, rf_message *why);
 
-/* Go on from t by dt to a motion, in inner steps, all of them halved where the film is not found; each sees its film
-   twice, the second time with what the first says of transport. The block stays as it was unless the answer is RF_OK.
-   `work` counts inner steps and solutions. RF_AT_WALL, RF_STUCK, RF_MEMORY. */
+/* Go on from t by dt to a motion, in inner steps, all of them halved where the film is not found. The block stays as it
+   was unless the answer is RF_OK. `work` counts inner steps and solutions. RF_AT_WALL, RF_STUCK, RF_MEMORY. */
 RF_EXPORT_LOOP int rf_oil_travel(const rf_oil_film_si *film, double t, const double *motion, double dt, double *block,
                                  int64_t *work, rf_message *why);
 
 /* Try one inner step to a motion and leave the block as it is: `end` is the block there, and unless NULL `stiffness` is
-   -d force / d (x, y) [N/m], 2 x 2. Of the block `near` it takes what P and theta tell of transport and of full cells.
-   RF_STUCK, RF_MEMORY. */
+   -d force / d (x, y) [N/m], 2 x 2. Of the block `near` it takes the cells that are full.
+   Theta as the last two contents foresee it says by how much transport differs from that of upstream values: it is the
+   same in all trials of a step, which would jump otherwise. RF_STUCK, RF_MEMORY. */
 RF_EXPORT_LOOP int rf_oil_attempt(const rf_oil_film_si *film, const double *block, const double *near, const double *motion,
                                   double dt, double *end, double *stiffness, int64_t *work);
 
