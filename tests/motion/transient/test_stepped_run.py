@@ -303,7 +303,7 @@ def test_the_compiled_loop_makes_the_steps_of_the_loop_in_python(rest):
         assert runs[0].work["newton_steps"] <= 4 * runs[0].work["steps"]
         for name, row in runs[0].signals.items():
             size = np.abs(row).max() or 1.0
-            np.testing.assert_allclose(row, runs[1][name], rtol=0.0, atol=1e-8 * size, err_msg=name)
+            np.testing.assert_allclose(row, runs[1][name], rtol=0.0, atol=1e-7 * size, err_msg=name)
 
 
 def test_transport_does_not_jump_between_the_trials_of_a_step():
@@ -331,7 +331,8 @@ def test_steps_of_the_compiled_loop_that_fail_are_halved(rest):
             simulate(thrown, film, duration=TURN, samples=99, max_step=TURN / 32)
         fallen.append(caught.value.partial)
     assert min(run.work["restarts"] for run in fallen) > 0
-    same = fallen[0].time < 6 * TURN / 32  # the first step was halved; what comes closer to the wall is left to chance
+    # The third step is halved. What comes closer to the wall is left to chance.
+    same = fallen[0].time < 6 * TURN / 32
     np.testing.assert_allclose(*(run["y"][: same.sum()] for run in fallen), rtol=1e-9)
 
 
