@@ -248,9 +248,9 @@ SAID: ContextVar[set[object] | None] = ContextVar("SAID", default=None)
 
 
 @contextmanager
-def said_once() -> Iterator[None]:
-    """Give each warning with a key once while an answer is made."""
-    token = SAID.set(set() if SAID.get() is None else SAID.get())
+def said_once(*, anew: bool = False) -> Iterator[None]:
+    """Give each warning with a key once while an answer is made, or while one of many is made `anew`."""
+    token = SAID.set(set() if anew or SAID.get() is None else SAID.get())
     try:
         yield
     finally:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from ..analysis import equilibrium
@@ -293,6 +294,10 @@ class ConservingTable:
 
     def build(self) -> Any:
         """Return the bearing, or its film that conserves the oil; InputError for a bad value."""
+        return self._built
+
+    @cached_property
+    def _built(self) -> Any:
         bearing = self.bearing()
         return self.conserved(bearing) if self.conserves else bearing
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..bearings.bush.table import BushAnswer
 from ..core.answers import QuestionAnswer
-from ..core.errors import InputError, RotorfilmError, ValidityWarning
+from ..core.errors import InputError, RotorfilmError, ValidityWarning, said_once
 from ..core.limits import SWEEP_POINTS, require_at_most
 from ..core.units import UNITS
 from ..scenes.film_answer import Answer
@@ -62,16 +62,19 @@ POINT_UNITS = {
 """Units of what a scene without a question answers, and of the estimate of one with it."""
 
 
-def solve_point(scene: Mapping[str, Any], values: Mapping[str, Any], source: str) -> Row:
+def solve_point(
+    scene: Mapping[str, Any], values: Mapping[str, Any], source: str, read: Scene | None = None
+) -> Row:
     """Return the answer of a scene with other values at some keys; a failure is a text in it.
 
-    What depends on the machine and its load, the cost, is left out: equal sweeps give equal data.
+    What depends on the machine and its load, the cost, is left out: equal sweeps give equal data. A scene
+    that was `read` with these values is not read again.
     """
-    with warnings.catch_warnings(record=True) as caught:
+    with warnings.catch_warnings(record=True) as caught, said_once(anew=True):
         warnings.simplefilter("always")
         told: set[str] = set()
         try:
-            asked = read_scene(varied(scene, values), source)
+            asked = read or read_scene(varied(scene, values), source)
             _require_kept(asked)
             answer = asked.solve()
             row = _kept(answer)
@@ -199,15 +202,44 @@ def points(axes: Sequence[Axis]) -> Iterator[dict[str, Any]]:
         yield {axis.key: axis.values[index[axis.dimension]] for axis in axes}
 
 
-def check(scene: Mapping[str, Any], axes: Sequence[Axis], source: str) -> None:
-    """Read one scene with each value in turn, so that a wrong key or value is found before the work.
+KEPT = 10_000
+"""Largest number of scenes that are kept from the check of a sweep, about 20 kB each."""
+
+
+def check(scene: Mapping[str, Any], axes: Sequence[Axis], source: str) -> dict[int, Scene]:
+    """Read the scenes along each dimension in turn, so that a wrong key or value is found before the work.
+
+    Returns
+    -------
+    dict of int to Scene
+        The scenes that gave no warning, by the numbers of their points; `KEPT` at most.
 
     Raises
     ------
     SceneError
         As a scene file raises it.
     """
-    first = next(points(axes))
-    for axis in axes:
-        for value in axis.values:
-            read_scene(varied(scene, {**first, axis.key: value}), f"{source}, {axis.key} = {value!r}")
+    first, lengths = next(points(axes)), sizes(axes)
+    stride, found = math.prod(lengths.values()), dict[int, Scene]()
+    for dimension, length in lengths.items():
+        stride //= length
+        for k in range(length):
+            values = {axis.key: axis.values[k] for axis in axes if axis.dimension == dimension}
+            read = _quietly_read(varied(scene, {**first, **values}), source)
+            if read is None:
+                for key, value in values.items():
+                    read_scene(varied(scene, {**first, key: value}), f"{source}, {key} = {value!r}")
+            elif len(found) < KEPT:
+                found[k * stride] = read
+    return found
+
+
+def _quietly_read(tables: Mapping[str, Any], source: str) -> Scene | None:
+    """Return the scene of these tables; None if reading it gives an error or a warning."""
+    with warnings.catch_warnings(record=True) as caught, said_once(anew=True):
+        warnings.simplefilter("always")
+        try:
+            read = read_scene(tables, source)
+        except RotorfilmError:
+            return None
+    return None if caught else read

@@ -9,8 +9,9 @@ import multiprocessing
 import os
 import tempfile
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from functools import partial
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
@@ -32,7 +33,7 @@ from ..core.files import (
 from ..core.inputs import arguments
 from ..core.limits import WORKERS, require_at_most
 from ..core.progress import Report, silent
-from ..scenes.scene import read_tables, varied
+from ..scenes.scene import Scene, read_tables, varied
 from .point import POINT_UNITS, Axis, Row, Values, check, points, read_axes, sizes, solve_point
 
 if TYPE_CHECKING:
@@ -103,11 +104,12 @@ def sweep(
     if workers is not None:
         require_count("workers", workers)
         require_at_most("workers", workers, WORKERS)
-    check(tables, axes, source)
+    read = check(tables, axes, source)
     name = _name(tables, axes)
     if target is not None and target.is_file():
         return load(target, name)
-    rows = _rows(tables, axes, source, name, target, workers=workers, dask=dask, report=report)
+    solve = partial(solved_by_dask, dask) if dask is not None else partial(solved_locally, workers, read)
+    rows = _rows(tables, axes, source, name, target, solve=solve, report=report)
     dataset = to_dataset(axes, rows, {"sweep": name, "scene": source, "rotorfilm": version("rotorfilm")})
     if target is not None:
         save(dataset, target, name)
@@ -153,8 +155,7 @@ def _rows(
     name: str,
     path: Path | None,
     *,
-    workers: int | None,
-    dask: str | None,
+    solve: Solving,
     report: Report,
 ) -> list[Row]:
     """Return the rows of all points, those of an interrupted run from disk."""
@@ -166,7 +167,7 @@ def _rows(
     rows = {} if store is None else dict(store.rows)
     todo = [(number, values) for number, values in every if number not in rows]
     try:
-        for number, row in _solved(tables, todo, source, workers, dask):
+        for number, row in solve(tables, todo, source):
             rows[number] = row
             if store is not None:
                 store.add(number, row)
@@ -175,14 +176,6 @@ def _rows(
         if store is not None:
             store.close()
     return [rows[number] for number, _ in every]
-
-
-def _solved(
-    tables: Mapping[str, Any], todo: Points, source: str, workers: int | None, dask: str | None
-) -> Iterator[tuple[int, Row]]:
-    if dask is not None:
-        return solved_by_dask(tables, todo, source, dask)
-    return solved_locally(tables, todo, source, workers)
 
 
 # The rows of a sweep as an xarray.Dataset with units, and on disk as NetCDF.
@@ -333,11 +326,16 @@ class Store:
 Points = Sequence[tuple[int, dict[str, Any]]]
 """Numbers of points, and the values of the keys there."""
 
+Solving = Callable[[Mapping[str, Any], Points, str], Iterator[tuple[int, Row]]]
+"""Takes the tables of a scene, points and the name of the scene, and yields the rows of the points."""
 
-def solved_here(scene: Mapping[str, Any], todo: Points, source: str) -> Iterator[tuple[int, Row]]:
-    """Yield the rows of points, one after the other."""
+
+def solved_here(
+    scene: Mapping[str, Any], todo: Points, source: str, read: Mapping[int, Scene] = MappingProxyType({})
+) -> Iterator[tuple[int, Row]]:
+    """Yield the rows of points, one after the other; scenes that were read are not read again."""
     for number, values in todo:
-        yield number, solve_point(scene, values, source)
+        yield number, solve_point(scene, values, source, read.get(number))
 
 
 START, ANSWER = 3.0, 1.0
@@ -348,7 +346,7 @@ TRIED, SHARES = 2, 4
 
 
 def solved_locally(
-    scene: Mapping[str, Any], todo: Points, source: str, workers: int | None
+    workers: int | None, read: Mapping[int, Scene], scene: Mapping[str, Any], todo: Points, source: str
 ) -> Iterator[tuple[int, Row]]:
     """Yield the rows of points, solved here and, where there is time to gain, by processes of this machine.
 
@@ -357,7 +355,7 @@ def solved_locally(
     cores = workers or os.cpu_count() or 1
     for done, one in enumerate(todo):
         begin, left = time.monotonic(), todo[done + 1 :]
-        yield from solved_here(scene, [one], source)
+        yield from solved_here(scene, [one], source, read)
         each = time.monotonic() - begin
         if done + 1 >= TRIED and min(cores, len(left)) > 1 and (workers or each * len(left) > START):
             size = min(int(ANSWER / each), len(left) // (SHARES * cores))
@@ -387,7 +385,7 @@ def solved_by_processes(
 
 
 def solved_by_dask(
-    scene: Mapping[str, Any], todo: Points, source: str, address: str
+    address: str, scene: Mapping[str, Any], todo: Points, source: str
 ) -> Iterator[tuple[int, Row]]:
     """Yield the rows of points as a Dask cluster completes them.
 

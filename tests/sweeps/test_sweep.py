@@ -13,6 +13,7 @@ import pytest
 from rotorfilm import InputError, JournalBearing, SceneError, ShortFilm, equilibrium, sweep
 from rotorfilm.scenes import Scene
 from rotorfilm.scenes.reading import quantity_of
+from rotorfilm.scenes.scene import read_scene
 from rotorfilm.sweeps.sweep_run import Store
 
 xarray = pytest.importorskip("xarray")
@@ -249,6 +250,38 @@ def test_rows_of_another_sweep_are_refused(tmp_path):
     store.close()
     with pytest.raises(InputError, match="same sweep"):
         Store(tmp_path / "rows", "other")
+
+
+@pytest.mark.parametrize("dimension", ["clearance", "sample"])
+def test_a_row_is_read_and_its_bearing_made_once(monkeypatch, dimension):
+    reads, made, checked = [], [], JournalBearing.__post_init__
+    monkeypatch.setattr(
+        "rotorfilm.sweeps.point.read_scene", lambda *one: reads.append(one) or read_scene(*one)
+    )
+    monkeypatch.setattr(JournalBearing, "__post_init__", lambda bearing: made.append(1) or checked(bearing))
+    samples = {
+        "journal.clearance": (dimension, CLEARANCES),
+        "journal.viscosity": (dimension, [0.1, 0.2, 0.3]),
+    }
+    sweep(SCENE, samples, workers=1)
+    assert len(reads) == len(made) == len(CLEARANCES)
+
+
+def test_samples_are_checked_together():
+    # A clearance of 6 mm fits the second radius and not the first.
+    samples = {"journal.clearance": ("n", [1e-4, 6e-3]), "journal.radius": ("n", [5e-3, 0.4])}
+    scene = {
+        **SCENE,
+        "journal": {**SCENE["journal"], "length": 1e-3},
+        "operation": {"speed": 1e3, "load": 1e-3},
+    }
+    assert (sweep(scene, samples, workers=1)["failure"] == "").all()
+
+
+def test_each_row_has_the_warnings_of_its_scene():
+    scene = {**SCENE, "journal": {**SCENE["journal"], "viscosity": 0.001}}
+    found = sweep(scene, {"operation.load": ["5 N", "6 N"]}, changes={"operation.speed": 600.0}, workers=1)
+    assert ["a real film takes more power" in str(text) for text in found["remarks"].values] == [True, True]
 
 
 @pytest.mark.parametrize(

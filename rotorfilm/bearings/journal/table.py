@@ -6,6 +6,7 @@ import math
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Annotated, Any
 
 from ...analysis import equilibrium
@@ -182,11 +183,12 @@ class JournalTable(ConservingTable, OiledTable):
             JournalBearing, self, film=named, grooves=openings, turbulence=effect_of(self)
         )
 
-    def build(self) -> JournalBearing | JFOFilm | HeldTilt:
-        """Return the bearing, its film that conserves the oil, or its tilted journal; InputError if bad."""
+    @cached_property
+    def _built(self) -> JournalBearing | JFOFilm | HeldTilt:
+        """The bearing, its film that conserves the oil, or its tilted journal."""
         if self.tilt is not None:
             return HeldTilt(journal=feeling_tilt(self.bearing(), named=self.film is not None), tilt=self.tilt)
-        return super().build()
+        return super()._built
 
     def repeated_inputs(self, bearing: JournalBearing | JFOFilm | HeldTilt) -> tuple[BearingData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
