@@ -40,7 +40,7 @@ from ..films.mass_conserving_steps import ConservedAtRest, FilmInMotion, MassCon
 from ..films.mobility import Mobility, require_mobility, require_no_mobility
 from ..formulas import extrapolated_value
 from ..oil import Cooling, Oil
-from ..oil.heated_bearing import FilmHeat, HeatBalance, film_heat
+from ..oil.heated_bearing import FilmHeat, SelfHeatedFilm, film_heat
 from ..reaction import NOMINAL_SPEED
 from .bearing import StaticFilm, fitted_bearing
 from .moment_carrying_journal import TiltedJournal, kind_of
@@ -118,7 +118,7 @@ AT_REST = np.eye(2)
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class JFOFilm(MassConserving, HeatBalance):
+class JFOFilm(MassConserving, SelfHeatedFilm):
     """The film of a bearing with mass-conserving cavitation (Jakobsson, Floberg and Olsson).
 
     Behind the rupture the oil flows on in a partly filled gap, until there is enough oil to form a film

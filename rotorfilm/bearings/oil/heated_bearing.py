@@ -240,7 +240,7 @@ def heated_spec(
 # What bearings share whose film has a viscosity, or an oil and one temperature: stated, or in balance.
 
 
-class HeatBalance:
+class SelfHeatedFilm:
     """A film that has one temperature, that of its own heat: where it balances at one state."""
 
     if TYPE_CHECKING:
@@ -278,7 +278,7 @@ class HeatBalance:
         return balance_temperature(self.film_heat(position, np.zeros(2), speed), *self.cooled)
 
 
-class WarmBearing(LaminarFilm, HeatBalance):
+class WarmBearing(LaminarFilm, SelfHeatedFilm):
     """The lubricant of a bearing and the heat of its film; fields, force, losses are those of a subclass."""
 
     if TYPE_CHECKING:
