@@ -151,7 +151,7 @@ def _resting(scene: Scene, inlet: float, cells: int) -> float:
 
 
 def _moving(scene: Scene, inlet: float, cells: int, steps: int) -> float:
-    """Return the extreme over the motion that the question means (`scenes.contact`)."""
+    """Return the extreme over the motion that the question means (`bearings.contact.table`)."""
     made, contact = _contact(scene, inlet, cells)
     shaken = contact_motion(scene)
     run = contact.simulate(
