@@ -3,11 +3,20 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
-from ..core.errors import ContactError, ConvergenceError, InputError, brief, require_count
+from ..core.errors import (
+    HEARD,
+    ContactError,
+    ConvergenceError,
+    InputError,
+    RotorfilmError,
+    brief,
+    require_count,
+    warn_user,
+)
 from ..core.inputs import arguments
 from ..core.limits import WORKERS, require_at_most
 from ..core.results import Trajectory
@@ -59,19 +68,38 @@ def simulate_many(
     count = (os.cpu_count() or 1) if workers is None else workers
     require_count("workers", count)
     require_at_most("workers", count, WORKERS)
+    results = []
+    for found in each_run(runs, keep, count):
+        if isinstance(found, RotorfilmError) and not isinstance(found, ContactError | ConvergenceError):
+            raise found
+        results.append(found)
+    return results
+
+
+def each_run(
+    runs: Iterable[Mapping[str, Any]], keep: Callable[[Trajectory], Any] | None, workers: int
+) -> Iterator[Any]:
+    """Yield what `simulate_many` returns or raises, run by run; the warnings of a run come before it."""
     if isinstance(runs, Mapping) or not isinstance(runs, Iterable):
         raise InputError(f"runs must be mappings of the arguments of simulate, got {brief(runs)}")
 
-    def result(run: Mapping[str, Any]) -> Any:
+    def result(run: Mapping[str, Any]) -> tuple[Any, list[tuple[str, type[Warning]]]]:
         if not isinstance(run, Mapping) or not all(isinstance(name, str) for name in run):
             raise InputError(f"runs must be mappings of the arguments of simulate, got {brief(run)}")
         if missing := [name for name in ("rotor", "reaction", "duration") if name not in run]:
             raise InputError(f"runs must have {' and '.join(missing)} each, got {brief(list(run))}")
+        heard: list[tuple[str, type[Warning]]] = []
+        token = HEARD.set(heard)
         try:
             found = simulate(**run)
-        except (ContactError, ConvergenceError) as failure:
-            return failure
-        return found if keep is None else keep(found)
+            return found if keep is None else keep(found), heard
+        except RotorfilmError as failure:
+            return failure, heard
+        finally:
+            HEARD.reset(token)
 
-    with ThreadPoolExecutor(count) as pool:
-        return list(pool.map(result, runs))
+    with ThreadPoolExecutor(workers) as pool:
+        for found, heard in pool.map(result, runs):
+            for message, category in heard:
+                warn_user(message, category)
+            yield found

@@ -29,6 +29,7 @@ def sweep(
     changes: Settings = None,
     workers: Annotated[int | None, Option(help="Processes; by default one for each core.")] = None,
     dask: Annotated[str | None, Option(help="Scheduler of a Dask cluster.", metavar="ADDRESS")] = None,
+    runs: Annotated[bool, Option(help="Make a run over time at each point, as `rotorfilm run`.")] = False,
 ) -> CommandOutput:
     """Solve a scene at all combinations of some values of its keys, into a NetCDF file.
 
@@ -42,9 +43,8 @@ def sweep(
         if key in parameters:
             raise InputError(f"--vary must be given once for each key, got {brief(key)} twice")
         parameters[key] = values
-    dataset = run(
-        scene, parameters, path=out, changes=read_settings(changes), workers=workers, dask=dask, report=report
-    )
+    how: dict[str, Any] = {"workers": workers, "dask": dask, "runs": runs}
+    dataset = run(scene, parameters, path=out, changes=read_settings(changes), **how, report=report)
     failed = int((dataset["failure"] != "").sum())
     remarks = int((dataset["remarks"] != "").sum())
     answer = {

@@ -257,6 +257,11 @@ def said_once(*, anew: bool = False) -> Iterator[None]:
         SAID.reset(token)
 
 
+HEARD: ContextVar[list[tuple[str, type[Warning]]] | None] = ContextVar("HEARD", default=None)
+"""Warnings given in a thread, which the thread that waits for it gives its user; None where they are given
+at once."""
+
+
 def warn_user(
     message: str, category: type[Warning] = ValidityWarning, key: tuple[object, ...] | None = None
 ) -> None:
@@ -269,6 +274,10 @@ def warn_user(
         if key in said or _is_ignored(category):
             return
         said.add(key)
+    heard = HEARD.get()
+    if heard is not None:
+        heard.append((message, category))
+        return
     package = __name__.partition(".")[0]
     frame, level, outermost = sys._getframe(), 0, 1
     while frame is not None:

@@ -11,14 +11,13 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from .. import rotors
-from ..analysis import simulate, simulate_rotor
-from ..core.errors import ContactError, InputError, warn_user
+from ..analysis import simulate
+from ..core.errors import ContactError, InputError, RotorfilmError, warn_user
 from ..core.model import Array
-from ..core.port import Reaction, freedoms_of
+from ..core.port import Reaction
 from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..core.results import Trajectory
-from ..core.signals import PLANAR
 from . import shared_tables
 from .export_scene import at_rest, at_rest_on_film, from_shaft_rest
 
@@ -71,6 +70,24 @@ class RotorRun(Readable):
         return dict.fromkeys(self.peaks, "m")
 
 
+class PreparedRun(NamedTuple):
+    """A run of a scene's rotor that is not made yet.
+
+    Attributes
+    ----------
+    arguments : dict of str to object
+        Arguments of `simulate`.
+    start : float [s]
+        When the run begins in the time of the scene.
+    station : str
+        Station of the bearing whose signals `simulate` returns without it; mostly empty.
+    """
+
+    arguments: dict[str, Any]
+    start: float
+    station: str
+
+
 class _Parts(NamedTuple):
     """A rotor at rest in its bearings, by station, and how long it runs [s]."""
 
@@ -110,27 +127,41 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
     A contact ends the run and is no error. Samples are 24 in a turn at the highest speed, 200 001 at most.
     A shaft on a motor, and one on bearings with states, is integrated by scipy, all else in C.
     """
+    report(0.0, "equilibrium")
+    ready = prepared_run(scene)
+    report(0.05, "motion")
+    try:
+        found: Trajectory | RotorfilmError = simulate(**ready.arguments)
+    except ContactError as contact:
+        found = contact
+    report(1.0, "done")
+    return finished_run(ready, found)
+
+
+def prepared_run(scene: Scene) -> PreparedRun:
+    """Return the run of a scene's rotor from its equilibrium on; see `run_rotor`, whose errors these are."""
     if scene.thrust is not None and scene.shaft is None:
         raise InputError(
             "thrust must stand in an entry of shaft.bearings for a run, as the mass of its collar is a disk "
             "of the shaft, got [thrust] alone, whose film has no motion of its own"
         )
-    report(0.0, "equilibrium")
     shared_tables.require_kind(scene.excitation, ("unbalance", "blade_loss", "run_up", "motor", "ground"))
     start = scene.excitation.start if isinstance(scene.excitation, shared_tables.BladeLossTable) else 0.0
     scene = after_loss(scene)
     parts = _parts(scene)
-    report(0.05, "motion")
-    times = run_times(parts.duration, parts.fastest)
-    contact = None
-    try:
-        trajectory = _motion(scene, parts, times)
-    except ContactError as error:
-        trajectory = error.partial
-        if trajectory is None:
-            raise
-        contact = start + float(trajectory.time[-1])
-    report(1.0, "done")
+    rotor, reaction, station = _halves(scene, parts)
+    known = {"duration": parts.duration, "times": run_times(parts.duration, parts.fastest), "rtol": RTOL}
+    return PreparedRun({"rotor": rotor, "reaction": reaction, **known}, start, station)
+
+
+def finished_run(ready: PreparedRun, found: Trajectory | RotorfilmError) -> RotorRun:
+    """Return what a run shows, from what `simulate` returned; raise its error unless that is a contact."""
+    partial = found.partial if isinstance(found, ContactError) else found
+    if not isinstance(partial, Trajectory):
+        assert isinstance(found, RotorfilmError)
+        raise found
+    start, trajectory = ready.start, _at_station(partial, ready.station)
+    contact = start + float(trajectory.time[-1]) if isinstance(found, ContactError) else None
     places = _places(trajectory)
     moved = {name: np.hypot(*(place - place[:, :1])) for name, place in places.items()}
     return RotorRun(
@@ -222,25 +253,18 @@ def _rigid(scene: Scene) -> tuple[rotors.RigidRotor, dict[str, Reaction]]:
     return rotor, {"": bearing}
 
 
-def _motion(scene: Scene, parts: _Parts, times: Array) -> Trajectory:
-    """Return the motion of rotor and bearings."""
+def _halves(scene: Scene, parts: _Parts) -> tuple[Any, Any, str]:
+    """Return the rotor and what it runs on, as `simulate` takes them, and the station of a single bearing."""
     rotor: Any = parts.rotor
     if isinstance(scene.excitation, shared_tables.MotorTable):
-        return _on_motor(scene.excitation, parts, times)
+        return _on_motor(scene.excitation, parts)
     if isinstance(scene.excitation, shared_tables.GroundTable):
         rotor = rotors.BaseExcitedRotor(rotor=rotor, base=scene.excitation.motion(parts.duration))
-    if isinstance(parts.rotor, rotors.RigidRotor):
-        return simulate(rotor, parts.bearings[""], duration=parts.duration, times=times, rtol=RTOL)
-    given = parts.bearings.values()
-    if any(getattr(bearing, "states", ()) or freedoms_of(bearing) != PLANAR for bearing in given):
-        return simulate(rotor, parts.bearings, duration=parts.duration, times=times, rtol=RTOL)
-    return simulate_rotor(
-        rotors.mount(rotor, parts.bearings), duration=parts.duration, times=times, rtol=RTOL
-    )
+    return rotor, parts.bearings[""] if isinstance(parts.rotor, rotors.RigidRotor) else parts.bearings, ""
 
 
-def _on_motor(table: shared_tables.MotorTable, parts: _Parts, times: Array) -> Trajectory:
-    """Return the motion of a rotor that a motor turns: one bearing is the other half of `simulate`."""
+def _on_motor(table: shared_tables.MotorTable, parts: _Parts) -> tuple[Any, Any, str]:
+    """Return a rotor that a motor turns on all bearings except one, which is the other half of `simulate`."""
     rotor, last = parts.rotor, next(reversed(parts.bearings))
     if isinstance(rotor, rotors.ShaftRotor):
         own = tuple(replace(one, name="") if one.name == last else one for one in rotor.stations)
@@ -248,11 +272,14 @@ def _on_motor(table: shared_tables.MotorTable, parts: _Parts, times: Array) -> T
     driven = rotors.MotorDrivenRotor(rotor=rotor, inertia=table.inertia, torque=table.motor())
     others = {name: bearing for name, bearing in parts.bearings.items() if name != last}
     mounted: Any = rotors.mount(driven, others) if others else driven
-    found = simulate(mounted, parts.bearings[last], duration=parts.duration, times=times, rtol=RTOL)
-    plain = {"x", "y", "vx", "vy", "force_x", "force_y"} if last else set()
-    return replace(
-        found, signals={f"{last}_{k}" if k in plain else k: row for k, row in found.signals.items()}
-    )
+    return mounted, parts.bearings[last], last
+
+
+def _at_station(found: Trajectory, station: str) -> Trajectory:
+    """Return a motion whose signals of a single journal have the name of its station."""
+    plain = {"x", "y", "vx", "vy", "force_x", "force_y"} if station else set()
+    signals = {f"{station}_{k}" if k in plain else k: row for k, row in found.signals.items()}
+    return replace(found, signals=signals)
 
 
 def _places(run: Trajectory) -> dict[str, Array]:

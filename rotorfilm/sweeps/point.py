@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from ..analysis.many_runs import each_run
 from ..bearings.bush.table import BushAnswer
 from ..core.answers import QuestionAnswer
 from ..core.errors import InputError, RotorfilmError, ValidityWarning, said_once
@@ -20,6 +21,7 @@ from ..core.limits import SWEEP_POINTS, require_at_most
 from ..core.units import UNITS
 from ..scenes.film_answer import Answer
 from ..scenes.reading import Quantity, quantity_of
+from ..scenes.rotor_runs import PreparedRun, RotorRun, finished_run, prepared_run
 from ..scenes.scene import Scene, read_scene, varied
 
 Row = dict[str, Any]
@@ -70,19 +72,69 @@ def solve_point(
     What depends on the machine and its load, the cost, is left out: equal sweeps give equal data. A scene
     that was `read` with these values is not read again.
     """
+    row: Row = {"remarks": ""}
+    with _told(row) as remarks:
+        asked = read or read_scene(varied(scene, values), source)
+        _require_kept(asked)
+        answer = asked.solve()
+        row |= _kept(answer)
+        remarks |= {f"left out: {remark}" for remark in getattr(answer, "remarks", ())}
+    return row
+
+
+def run_points(
+    scene: Mapping[str, Any],
+    todo: Sequence[tuple[int, Mapping[str, Any]]],
+    source: str,
+    read: Mapping[int, Scene],
+    workers: int,
+) -> dict[int, Row]:
+    """Return what the runs over time of points show, by their numbers; runs share `workers` threads."""
+    rows: dict[int, Row] = {number: {"remarks": ""} for number, _ in todo}
+    ready: dict[int, PreparedRun] = {}
+    for number, values in todo:
+        with _told(rows[number]):
+            ready[number] = prepared_run(read.get(number) or read_scene(varied(scene, values), source))
+    found = each_run([one.arguments for one in ready.values()], None, workers)
+    for number, one in ready.items():
+        with _told(rows[number]):
+            rows[number] |= _moved(finished_run(one, next(found)))
+    return rows
+
+
+@contextlib.contextmanager
+def _told(row: Row) -> Iterator[set[str]]:
+    """Add to a row the remarks that are put in the set and the warnings; of a failure these and its text."""
+    remarks = {row["remarks"]} - {""}
     with warnings.catch_warnings(record=True) as caught, said_once(anew=True):
         warnings.simplefilter("always")
-        told: set[str] = set()
         try:
-            asked = read or read_scene(varied(scene, values), source)
-            _require_kept(asked)
-            answer = asked.solve()
-            row = _kept(answer)
-            told = {f"left out: {remark}" for remark in getattr(answer, "remarks", ())}
+            yield remarks
         except RotorfilmError as error:
-            row = {"failure": f"{type(error).__name__}: {error}"}
-    told |= {str(each.message) for each in caught if issubclass(each.category, ValidityWarning)}
-    return {**row, "remarks": "; ".join(sorted(told))}
+            row["failure"] = f"{type(error).__name__}: {error}"
+    remarks |= {str(each.message) for each in caught if issubclass(each.category, ValidityWarning)}
+    row["remarks"] = "; ".join(sorted(remarks))
+
+
+def _moved(run: RotorRun) -> Row:
+    """Return the numbers of a run, those of each journal and probe by its name."""
+    places = {
+        f"{place}_{name}": value
+        for name, values in (
+            ("peak", run.peaks),
+            ("vibration", run.vibrations),
+            ("vibration_speed", run.vibration_speeds),
+        )
+        for place, value in values.items()
+    }
+    contact = {} if run.contact_time is None else {"contact_time": run.contact_time}
+    return {**places, "end_speed": run.end_speed, **contact}
+
+
+def unit_of(name: str) -> str:
+    """Return the unit of a number that a scene without a question, or a run, shows; empty for none."""
+    ends = {"_peak": "m", "_vibration": "m", "_speed": "rad/s", "contact_time": "s"}
+    return POINT_UNITS.get(name) or next((unit for end, unit in ends.items() if name.endswith(end)), "")
 
 
 def _require_kept(scene: Scene) -> None:

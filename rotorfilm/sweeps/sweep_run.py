@@ -34,7 +34,7 @@ from ..core.inputs import arguments
 from ..core.limits import WORKERS, require_at_most
 from ..core.progress import Report, silent
 from ..scenes.scene import Scene, read_tables, varied
-from .point import POINT_UNITS, Axis, Row, Values, check, points, read_axes, sizes, solve_point
+from .point import Axis, Row, Values, check, points, read_axes, run_points, sizes, solve_point, unit_of
 
 if TYPE_CHECKING:
     import xarray
@@ -50,6 +50,7 @@ def sweep(
     changes: Mapping[str, Any] = MappingProxyType({}),
     workers: int | None = None,
     dask: str | None = None,
+    runs: bool = False,
     report: Report = silent,
 ) -> xarray.Dataset:
     """Solve a scene at many values of its keys.
@@ -73,6 +74,8 @@ def sweep(
         than starting these. 1 uses this process.
     dask : str, optional
         Address of a Dask scheduler whose workers solve the points instead.
+    runs : bool
+        Whether each point is a run over time, as `rotorfilm run` makes it, on threads of this process.
     report : callable
         Called with the fraction done and a text.
 
@@ -81,7 +84,9 @@ def sweep(
     xarray.Dataset
         Variables for a scene with a question: `value`, `error_estimate`, `met`, `model`. Without a question:
         `eccentricity_ratio`, `attitude_angle`, `minimum_film`, `stiffness`, `damping`, `power_loss`,
-        `friction_torque`, `side_flow`, `threshold_speed`, `whirl_ratio`, `model`. A point without an answer
+        `friction_torque`, `side_flow`, `threshold_speed`, `whirl_ratio`, `model`. For runs: `end_speed`,
+        `contact_time` if a journal touches, and `peak`, `vibration` and `vibration_speed` of each journal and
+        probe, such as `journal_peak`. A point without an answer
         has the reason in `failure` and not-a-number elsewhere; warnings are in `remarks`.
 
     Raises
@@ -105,10 +110,13 @@ def sweep(
         require_count("workers", workers)
         require_at_most("workers", workers, WORKERS)
     read = check(tables, axes, source)
-    name = _name(tables, axes)
+    if runs and dask is not None:
+        raise InputError(f"dask must be None for runs, got {dask!r}")
+    name = _name(tables, axes, runs)
     if target is not None and target.is_file():
         return load(target, name)
-    solve = partial(solved_by_dask, dask) if dask is not None else partial(solved_locally, workers, read)
+    local = partial(runs_here if runs else solved_locally, workers, read)
+    solve = local if dask is None else partial(solved_by_dask, dask)
     rows = _rows(tables, axes, source, name, target, solve=solve, report=report)
     dataset = to_dataset(axes, rows, {"sweep": name, "scene": source, "rotorfilm": version("rotorfilm")})
     if target is not None:
@@ -131,9 +139,10 @@ def _tables(scene: str | os.PathLike[str] | Mapping[str, Any]) -> tuple[Mapping[
     return read_tables(scene), str(scene)
 
 
-def _name(tables: Mapping[str, Any], axes: tuple[Axis, ...]) -> str:
+def _name(tables: Mapping[str, Any], axes: tuple[Axis, ...], runs: bool) -> str:
     """Return a fingerprint of the scene and of all values."""
-    parts = [tables, [[axis.key, axis.dimension, list(axis.values)] for axis in axes], version("rotorfilm")]
+    varied_by = [[axis.key, axis.dimension, list(axis.values)] for axis in axes]
+    parts = [tables, varied_by, version("rotorfilm"), *(["runs"] if runs else [])]
     return hashlib.sha256(json.dumps(parts, sort_keys=True, default=str).encode()).hexdigest()[:16]
 
 
@@ -191,9 +200,9 @@ def to_dataset(axes: Sequence[Axis], rows: Sequence[Row], attributes: Mapping[st
 
     lengths = sizes(axes)
     names = sorted({name for row in rows for name in row if name != "unit"} | {"failure"})
-    units = {**POINT_UNITS, "value": next((row["unit"] for row in rows if "unit" in row), "")}
+    units = {"value": next((row["unit"] for row in rows if "unit" in row), "")}
     return xarray.Dataset(
-        {name: _variable(name, rows, lengths, units.get(name, "")) for name in names},
+        {name: _variable(name, rows, lengths, units.get(name) or unit_of(name)) for name in names},
         coords={axis.name: _coordinate(axis) for axis in axes},
         attrs=dict(attributes),
     )
@@ -336,6 +345,19 @@ def solved_here(
     """Yield the rows of points, one after the other; scenes that were read are not read again."""
     for number, values in todo:
         yield number, solve_point(scene, values, source, read.get(number))
+
+
+RUNS = 8
+"""Runs of each thread whose results wait to be kept; each has megabytes of samples."""
+
+
+def runs_here(
+    workers: int | None, read: Mapping[int, Scene], scene: Mapping[str, Any], todo: Points, source: str
+) -> Iterator[tuple[int, Row]]:
+    """Yield the rows of points that are runs over time, some for each of `workers` threads at once."""
+    cores = workers or os.cpu_count() or 1
+    for k in range(0, len(todo), RUNS * cores):
+        yield from run_points(scene, todo[k : k + RUNS * cores], source, read, cores).items()
 
 
 START, ANSWER = 3.0, 1.0

@@ -6,13 +6,23 @@ import signal
 import subprocess
 import sys
 import time
+import warnings
 
 import numpy as np
 import pytest
 
-from rotorfilm import InputError, JournalBearing, SceneError, ShortFilm, equilibrium, sweep
+from rotorfilm import (
+    InputError,
+    JournalBearing,
+    SceneError,
+    ShortFilm,
+    ValidityWarning,
+    equilibrium,
+    sweep,
+)
 from rotorfilm.scenes import Scene
 from rotorfilm.scenes.reading import quantity_of
+from rotorfilm.scenes.rotor_runs import run_rotor
 from rotorfilm.scenes.scene import read_scene
 from rotorfilm.sweeps.sweep_run import Store
 
@@ -315,3 +325,31 @@ def test_a_bush_answers_with_its_contact():
     found = sweep(scene, {"operation.load": ["2 kN", "4 kN"]}, workers=1)
     assert float(found["contact_angle"][1]) > float(found["contact_angle"][0]) > 0.0
     assert found["critical_speed"].attrs["units"] == "rad/s"
+
+
+RUNNING = {
+    **SCENE,
+    "rigid_rotor": {"mass": "53.535 kg", "unbalance": "2147 g mm"},
+    "cosimulation": {"revolutions": 2},
+}
+
+
+@pytest.mark.parametrize("workers", [1, 3])
+def test_runs_over_time_are_those_of_single_scenes(workers):
+    # The last one throws the journal so close to its wall that a warning says so.
+    unbalances, loads = ["0 g mm", "2 kg m", "1e5 kg m"], ["525 N", "1e12 N"]
+    keys = {"rigid_rotor.unbalance": unbalances, "operation.load": loads}
+    with pytest.warns(UserWarning, match="3 of 6 points have no answer"):
+        found = sweep(RUNNING, keys, runs=True, workers=workers)
+    assert [text.partition(":")[0] for text in found["failure"].values[:, 1]] == ["EquilibriumError"] * 3
+    for k, unbalance in enumerate(unbalances):
+        tables = {**RUNNING, "rigid_rotor": {**RUNNING["rigid_rotor"], "unbalance": unbalance}}
+        with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+            alone = run_rotor(read_scene(tables, "scene"))
+        row = found.isel(rigid_rotor_unbalance=k, operation_load=0)
+        assert float(row["journal_peak"]) == alone.peaks["journal"]
+        assert float(row["journal_vibration"]) == alone.vibrations["journal"]
+        assert float(row["journal_vibration_speed"]) == alone.vibration_speeds["journal"]
+    assert found["journal_peak"].attrs == {"units": "m"}
+    thin = ["real surfaces touch there" in text for text in found["remarks"].values[:, 0]]
+    assert thin == [False, False, True]
