@@ -298,7 +298,8 @@ def _fits(nu: Array, K: port.Complex, still: Array, top: float) -> Iterator[_Fit
         for decay in (top * pole for pole in POLES):
             s = 1j * nu
             lags = ((s - decay) / (s + decay)) ** np.arange(order)[:, None] / (s + decay)
-            terms = (np.vstack([s / top, decay * (lags - _at_rest(order, decay)[:, None])]) * size).T
+            rows: port.Complex = np.vstack([s / top, decay * (lags - _at_rest(order, decay)[:, None])])
+            terms = (rows * size).T
             some = slice(1, None, 2)
             found, *_ = np.linalg.lstsq(_real(terms[some]), _real(wanted[some]), rcond=None)
             error = float(np.abs(terms @ found - wanted).max())

@@ -318,7 +318,7 @@ class Parallel(SharedReaction):
     def minimum_film(self, position: ArrayLike) -> Array:
         """Return the minimum film of all reactions [m], shape (...), at journal positions (n, ...) [m]."""
         q = require_vector("position", position, len(self.freedoms))
-        return np.min([minimum_film(one, q[rows]) for one, rows, _, _ in self._places], axis=0)
+        return np.array([minimum_film(one, q[rows]) for one, rows, _, _ in self._places]).min(axis=0)
 
     def require_film(self, position: Array) -> None:
         """Do nothing: each reaction raises its own error where the journal touches."""

@@ -182,7 +182,7 @@ def _relocated(s: Any, wanted: Complex, poles: Complex, powers: int) -> Complex:
     sigma = np.hstack([fractions, np.ones((len(s), 1))])
     left, right = [], []
     for entry in wanted.T:
-        rest: Array = np.linalg.qr(np.hstack([own, _real(-entry[:, None] * sigma)]), mode="r")  # type: ignore[assignment]
+        rest = np.asarray(np.linalg.qr(np.hstack([own, _real(-entry[:, None] * sigma)]), mode="r"))
         left.append(rest[own.shape[1] :, own.shape[1] :])
         right.append(np.zeros(len(left[-1])))
     weight = float(np.linalg.norm(wanted)) / len(s) or 1.0

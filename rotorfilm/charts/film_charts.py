@@ -81,7 +81,7 @@ def plot_eccentricity(orbits: Mapping[str, SynchronousOrbits], *, unit: float) -
     Parameters are those of `plot_transmissibility`.
     """
     marks = _response(orbits, unit, lambda branch: branch.eccentricity_ratio)
-    last = max((float(np.max(one.x, initial=0.0)) for one in marks), default=0.0)
+    last = max((float(np.asarray(one.x).max(initial=0.0)) for one in marks), default=0.0)
     for number, found in enumerate(orbits.values()):
         if found.contact_unbalance is not None and found.contact_unbalance / unit <= 1.05 * last:
             marks.append(CurveMark([found.contact_unbalance / unit], [1.0], "", f"C{number}", "", marker="x"))

@@ -227,7 +227,7 @@ def _felt(structure: Structure, s: complex, speed: float) -> _Felt:
     inputs: Array = np.hstack([structure.journals.T, structure.unbalance])
     moved = structure.journals @ np.linalg.solve(whole, inputs)
     stations = len(structure.journals)
-    stiffness = np.linalg.inv(moved[:, :stations]).astype(complex)
+    stiffness: NDArray[np.complex128] = np.linalg.inv(moved[:, :stations]).astype(complex)
     return stiffness, stiffness @ moved[:, stations:]
 
 

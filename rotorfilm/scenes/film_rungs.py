@@ -490,7 +490,7 @@ def whirl_growth(found: Any, mass: float) -> float:
     return float(np.max(np.linalg.eigvals(whirl_matrix(found, mass)).real))
 
 
-def least_stable(matrix: Array) -> tuple[complex, Array, Array]:
+def least_stable(matrix: Array) -> tuple[complex, port.Complex, port.Complex]:
     """Return the eigenvalue with the largest real part, its left and its right vector, left right = 1."""
     values, right = np.linalg.eig(matrix)
     k = int(np.argmax(values.real + 1e-12 * np.abs(values.imag)))

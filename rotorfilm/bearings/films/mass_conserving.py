@@ -78,7 +78,7 @@ class ConservedCells(NamedTuple):
     def film(self) -> Array:
         """1 where there is a film after a line, and 0 in openings over the whole length, shape (N,)."""
         held = np.all(self.opening != FILM, axis=1)
-        return 1.0 - (held & np.roll(held, -1))
+        return 1.0 - (held & np.roll(held, -1)).astype(float)
 
     @property
     def face(self) -> Array:

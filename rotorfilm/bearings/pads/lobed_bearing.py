@@ -268,7 +268,7 @@ class LobedBearing(FilmReaction, PadBearing):
         It is not positive where the journal touches.
         """
         at = require_vector("position", position) / self.clearance
-        return self.clearance * np.min([lobe.least_film(at) for lobe in self.lobes], axis=0)
+        return self.clearance * np.array([lobe.least_film(at) for lobe in self.lobes]).min(axis=0)
 
     @property
     def arcs(self) -> tuple[Lobe, ...]:
