@@ -498,6 +498,8 @@ KINDS = (
     "damper",
     "oil_damper",
     "short_damper",
+    "polar_damper",
+    "polar_journal",
     "reynolds_journal",
     "pressure_dam",
     "lobed_journal",

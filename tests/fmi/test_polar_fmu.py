@@ -2,10 +2,21 @@
 
 from dataclasses import replace
 
+import fmpy
 import numpy as np
 import pytest
 
-from rotorfilm import FullFilm, JournalBearing, PorousCage, SqueezeFilmDamper, export_fmu, with_springs
+from rotorfilm import (
+    FullFilm,
+    JournalBearing,
+    PorousCage,
+    RigidRotor,
+    SqueezeFilmDamper,
+    export_fmu,
+    mount,
+    simulate,
+    with_springs,
+)
 from rotorfilm.bearings import FiniteSqueeze, PublishedSqueeze
 from rotorfilm.bearings.journal import FixedArc, RotatingArc, SplittingFilm
 from rotorfilm.fmu import check_fmu
@@ -119,3 +130,21 @@ def test_what_the_table_holds_for_is_fixed(model, tunable):
 
 def test_an_arc_that_turns_with_the_source_has_no_kernel():
     assert replace(JOURNAL, film=SplittingFilm(rupture=RotatingArc())).native() is None
+
+
+@pytest.mark.parametrize("model", [JOURNAL, LINEAR], ids=["journal", "damper"])
+@versions
+def test_a_rotor_on_such_a_film_is_one_system(model, version, tmp_path):
+    """The FMU of rotor and bearing, which needs no Python, follows the motion that `simulate` computes."""
+    rotor = RigidRotor(mass=10.0, speed=300.0, unbalance=1e-4)
+    system = mount(rotor, {"": with_springs(model, 1e6) if model is LINEAR else model})
+    path = export_fmu(
+        system, tmp_path / "system.fmu", version, backend="native", component="system", stop_time=1e-3
+    )
+    names = ["system.x", "system.y"]
+    ran = fmpy.simulate_fmu(
+        str(path), fmi_type="CoSimulation", stop_time=0.01, output_interval=1e-3, output=names
+    )
+    motion = simulate(rotor, system.bearings[0], duration=0.01, samples=11)
+    apart = np.stack([ran[name] for name in names]) - motion.position
+    assert np.abs(apart).max() < 1e-4 * np.abs(motion.position).max()

@@ -13,6 +13,8 @@ static const rf_kernel_type *const KINDS[] = {
     &rf_damper_type,
     &rf_oil_damper_type,
     &rf_short_damper_type,
+    &rf_polar_damper_type,
+    &rf_polar_journal_type,
 #if !defined(RF_SUBSET) || (RF_SUBSET & RF_ROTORFILM_GRID_SYSTEMS)
     &rf_reynolds_journal_type,
     &rf_pressure_dam_type,
