@@ -14,7 +14,8 @@ int rf_open_levels(rf_levels *levels, const rf_ring *ring)
     double *next = malloc(numbers * sizeof(double) + 3 * all);
     levels->ring = ring;
     levels->memory = next;
-    levels->search.memory = NULL;
+    levels->keeps = 0;
+    memset(levels->search, 0, sizeof levels->search);
     if (!next)
         return RF_MEMORY;
     for (int level = 0; level < ring->levels; ++level) {
@@ -28,19 +29,25 @@ int rf_open_levels(rf_levels *levels, const rf_ring *ring)
     levels->full = (uint8_t *)(next + 4 * all);
     levels->held = levels->full + all;
     levels->known = levels->held + all;
-    return rf_open_search(&levels->search, finest->lines, finest->nodes);
+    int status = RF_OK;
+    for (int level = 0; level < ring->levels && status == RF_OK; ++level)
+        status = rf_open_search(&levels->search[level], ring->grids[level].lines, ring->grids[level].nodes);
+    return status;
 }
 
 void rf_close_levels(rf_levels *levels)
 {
-    rf_close_search(&levels->search);
+    for (int level = 0; level < levels->ring->levels; ++level)
+        rf_close_search(&levels->search[level]);
     free(levels->memory);
 }
 
 void rf_place_journal(rf_levels *levels, const double *q, double rate)
 {
-    for (int level = 0; level < levels->ring->levels; ++level)
+    for (int level = 0; level < levels->ring->levels; ++level) {
         rf_set_cells(&levels->cells[level], q, rate);
+        levels->search[level].keeps = 0;
+    }
 }
 
 static size_t middle_of(const rf_ring *ring, const rf_grid *grid)
@@ -97,6 +104,14 @@ static void refine_full(rf_levels *levels, const rf_grid *grid)
     }
 }
 
+static int search_level(rf_levels *levels)
+{
+    rf_search *search = &levels->search[levels->level];
+    const int status = rf_search_film(search, &levels->film, levels->ring->ruptured, levels->pressure, levels->full);
+    search->keeps = levels->keeps && status == RF_OK;
+    return status;
+}
+
 int rf_solve_level(rf_levels *levels, int level, const double *drive)
 {
     const rf_ring *ring = levels->ring;
@@ -112,7 +127,7 @@ int rf_solve_level(rf_levels *levels, int level, const double *drive)
         refine_full(levels, grid);
     else
         guess_full(levels, grid);
-    const int status = rf_search_film(&levels->search, &levels->film, ring->ruptured, levels->pressure, levels->full);
+    const int status = search_level(levels);
     if (level > 0)
         memcpy(levels->known, levels->full, grid->lines * grid->nodes);
     return status;
@@ -131,7 +146,7 @@ int rf_solve_again(rf_levels *levels)
     for (size_t q = 0; q < levels->film.lines * levels->film.nodes; ++q)
         if (levels->held[q] && levels->full[q])
             levels->pressure[q] = 0.0;
-    return rf_search_film(&levels->search, &levels->film, levels->ring->ruptured, levels->pressure, levels->full);
+    return search_level(levels);
 }
 
 void rf_take_force(rf_levels *levels, double *f)
@@ -158,7 +173,7 @@ void rf_take_derivatives(rf_levels *levels, double rate, double *by)
         rf_set_source(cells, unit, levels->answer);
         for (size_t q = 0; levels->ring->clipped && q < levels->film.lines * levels->film.nodes; ++q)
             levels->answer[q] = levels->pressure[q] > 0.0 ? levels->answer[q] : 0.0;
-        rf_solve_film(&levels->search, levels->answer, levels->answer);
+        rf_solve_film(&levels->search[levels->level], levels->answer, levels->answer);
         rf_bend(cells, levels->answer, levels->pressure, rate, bent);
         rf_multiply(cells, levels->answer, products);
         for (int m = 0; m < RF_FREEDOMS; ++m)

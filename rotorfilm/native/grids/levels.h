@@ -10,7 +10,8 @@ typedef struct rf_levels {
     rf_cells cells[RF_LEVELS];
     rf_stencil film;  /* of the grid that was solved last, and its level */
     int level;
-    rf_search search;
+    int keeps; /* whether drives at one place of the journal share what is factorized */
+    rf_search search[RF_LEVELS];
     double *source, *pressure, *answer, *flow; /* N x M of that grid; the last two are scratch */
     uint8_t *full, *held; /* N x M: nodes that are full, and those that are held ... */
     uint8_t *known;       /* ... and those that are full on the next coarser grid */

@@ -86,12 +86,9 @@ static section section_at(const double *e, double chi, double angle)
     return at;
 }
 
-static void place_stream(stream *oil, const double *q, double rate)
+static void place_stream(stream *oil, const double *q)
 {
     const double chi = off_unit(q), gap = (1.0 - chi) * (1.0 + chi);
-    oil->q = q;
-    oil->rate = fabs(rate);
-    oil->backward = rate < 0.0;
     oil->turn = gap > 0.0 ? 2.0 * PI / sqrt(gap) : 0.0;
     oil->square_turn = oil->turn / gap;
     for (size_t i = 0; i < oil->grid->lines; ++i) {
@@ -503,7 +500,9 @@ static int solve(stream *oil, const double *q, const double *drive)
     rf_levels *film = oil->film;
     const int fed = is_fed(oil->grid) && film->ring->ruptured;
     double f[RF_FREEDOMS];
-    place_stream(oil, q, drive[4]);
+    oil->q = q;
+    oil->rate = fabs(drive[4]);
+    oil->backward = drive[4] < 0.0;
     int status = rf_solve_down_to(film, 0, drive);
     for (int k = 0; fed && k < MOST_STARTS && status == RF_OK && shut_starts(oil); ++k)
         status = rf_solve_again(film);
@@ -518,6 +517,7 @@ int rf_ring_losses(const rf_ring *ring, size_t n, const double *e, const double 
     stream oil;
     oil.line = NULL;
     int status = rf_open_levels(&film, ring);
+    film.keeps = 1;
     if (status == RF_OK)
         status = open_stream(&oil, &film);
     const size_t openings = openings_of(ring->grids);
@@ -530,7 +530,10 @@ int rf_ring_losses(const rf_ring *ring, size_t n, const double *e, const double 
         status = rf_judge_state(ring, q, drive);
         if (status != RF_OK)
             break;
-        rf_place_journal(&film, q, rate[i]);
+        if (i == 0 || e[i] != e[i - 1] || e[n + i] != e[n + i - 1] || rf_is_sped(ring)) {
+            rf_place_journal(&film, q, rate[i]);
+            place_stream(&oil, q);
+        }
         status = solve(&oil, q, drive);
         add_shear(&oil, &sums);
         losses[i] = sums.film;
@@ -548,8 +551,10 @@ int rf_follow_pad(rf_levels *film, const double *q, const double *drive, rf_pad_
 {
     stream oil;
     int status = open_stream(&oil, film);
-    if (status == RF_OK)
+    if (status == RF_OK) {
+        place_stream(&oil, q);
         status = solve(&oil, q, drive);
+    }
     if (status == RF_OK) {
         double out[2] = {0.0, 0.0}, in[2] = {0.0, 0.0};
         size_t i = 0;

@@ -225,6 +225,7 @@ int rf_ring_potential(const rf_ring *ring, const double *e, size_t n, const doub
     const double q[RF_FREEDOMS] = {e[0], e[1], 0.0, 0.0};
     rf_levels levels;
     int status = rf_open_levels(&levels, ring);
+    levels.keeps = 1;
     *first = 0;
     if (status == RF_OK && (status = judge(ring, e, e)) == RF_OK)
         rf_place_journal(&levels, q, 0.0);
@@ -241,7 +242,11 @@ int rf_ring_potential(const rf_ring *ring, const double *e, size_t n, const doub
             J[at] = potential_of(&levels, drive, n, slope ? slope + at + (size_t)level * n : NULL);
         }
     }
-    *work = levels.search.work;
+    memset(work, 0, sizeof *work);
+    for (int level = 0; level < ring->levels; ++level) {
+        work->solutions += levels.search[level].work.solutions;
+        work->lines += levels.search[level].work.lines;
+    }
     rf_close_levels(&levels);
     return status;
 }

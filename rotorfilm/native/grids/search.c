@@ -12,8 +12,9 @@
 int rf_open_search(rf_search *search, size_t lines, size_t nodes)
 {
     const size_t all = lines * nodes;
-    double *next = malloc((2 * all + all * (nodes + 1) + all * nodes + nodes * nodes) * sizeof(double) + 2 * lines);
+    double *next = malloc((2 * all + all * (nodes + 1) + all * nodes + nodes * nodes) * sizeof(double) + 2 * lines + all);
     search->memory = next;
+    search->keeps = 0;
     search->work.solutions = search->work.lines = 0;
     if (!next)
         return RF_MEMORY;
@@ -24,6 +25,7 @@ int rf_open_search(rf_search *search, size_t lines, size_t nodes)
     search->chain.corner = search->chain.border + all * nodes;
     search->moved = (uint8_t *)(search->chain.corner + nodes * nodes);
     search->chain.state = search->moved + lines;
+    search->factorized = search->chain.state + lines;
     return RF_OK;
 }
 
@@ -169,25 +171,30 @@ static int move_edge(rf_search *search, const double *pressure, double threshold
 int rf_search_film(rf_search *search, const rf_stencil *film, int ruptured, double *pressure, uint8_t *full)
 {
     const size_t all = film->lines * film->nodes;
+    const int fresh = !search->keeps;
     double *flow = search->flow, largest = 0.0;
     search->film = film;
     search->full = full;
+    search->keeps = 0;
     for (size_t q = 0; q < all; ++q) {
-        largest = fmax(largest, fabs(film->source[q]));
+        largest = fabs(film->source[q]) > largest ? fabs(film->source[q]) : largest;
         full[q] = full[q] && !film->held[q];
     }
+    for (size_t i = 0; i < film->lines && !fresh; ++i)
+        search->moved[i] = memcmp(full + i * film->nodes, search->factorized + i * film->nodes, film->nodes) != 0;
     for (int set = 0; set < MOST_SETS; ++set) {
         for (size_t q = 0; q < all; ++q)
             pressure[q] = film->held[q] ? pressure[q] : 0.0;
         set_outflow(film, pressure, flow);
         for (size_t q = 0; q < all; ++q)
             flow[q] = film->source[q] - flow[q];
-        assemble(search, set == 0);
+        assemble(search, fresh && set == 0);
         ++search->work.solutions;
         rf_factorize_chain(&search->chain);
         rf_solve_film(search, flow, flow);
         for (size_t q = 0; q < all; ++q)
             pressure[q] += flow[q];
+        memcpy(search->factorized, full, all);
         if (!ruptured || !move_edge(search, pressure, THRESHOLD * largest))
             return RF_OK;
     }

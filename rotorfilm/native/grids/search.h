@@ -33,6 +33,8 @@ typedef struct rf_search {
     rf_chain chain;
     double *flow, *chained; /* lines x nodes of the largest film */
     uint8_t *moved;         /* lines of which some node filled or emptied since they were factorized */
+    uint8_t *factorized;    /* the nodes that were full when the chain was factorized last */
+    int keeps;              /* whether the next film has the same conductances, so that its lines with the same nodes are kept */
     size_t cut;             /* the line at which the ring is cut */
     rf_grid_work work;      /* so far */
     void *memory;
