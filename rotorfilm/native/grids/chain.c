@@ -20,7 +20,7 @@ static inline size_t below(const rf_chain *chain, size_t p)
 RF_CLONES
 static void factorize_band(rf_chain *chain)
 {
-    const size_t half = chain->half, stride = half + 1;
+    const size_t half = chain->half, stride = rf_chain_stride(half);
     for (size_t line = 0; line < chain->lines; ++line) {
         const size_t start = line * half;
         if (chain->state[line] != RF_LINE_NEW)
@@ -38,7 +38,7 @@ static void factorize_band(rf_chain *chain)
             }
             for (size_t k = p < start ? start - p : 1; k <= reach; ++k)
                 if (column[k] != 0.0)
-                    rf_subtract(reach + 1 - k, column[k], column + k, column + k * stride);
+                    rf_subtract((half + 4 - k) / 4 * 4, column[k], column + k, column + k * stride);
         }
     }
 }
@@ -47,7 +47,7 @@ static void factorize_band(rf_chain *chain)
 RF_CLONES
 static void factorize_border(rf_chain *chain)
 {
-    const size_t half = chain->half, stride = half + 1;
+    const size_t half = chain->half, stride = rf_chain_stride(half);
     for (size_t p = 0; p < unknowns(chain); ++p) {
         const double *column = chain->band + p * stride;
         double *row = chain->border + p * half;
@@ -89,7 +89,7 @@ void rf_factorize_chain(rf_chain *chain)
 RF_CLONES
 static void forward(const rf_chain *chain, double *x)
 {
-    const size_t half = chain->half, stride = half + 1;
+    const size_t half = chain->half, stride = rf_chain_stride(half);
     for (size_t line = 0; line < chain->lines; ++line) {
         if (chain->state[line] == RF_LINE_EMPTY)
             continue;
@@ -105,7 +105,7 @@ static void forward(const rf_chain *chain, double *x)
 RF_CLONES
 static void backward(const rf_chain *chain, double *x)
 {
-    const size_t half = chain->half, stride = half + 1;
+    const size_t half = chain->half, stride = rf_chain_stride(half);
     for (size_t line = chain->lines; line-- > 0;) {
         if (chain->state[line] == RF_LINE_EMPTY)
             continue;

@@ -19,10 +19,16 @@ typedef struct rf_chain {
     size_t half;    /* its half-width, unknowns of a line and of the border */
     int bordered;   /* whether the border couples to the band */
     uint8_t *state; /* lines: what there is to do; none is kept in a chain with a border */
-    double *band;   /* unknowns x (half + 1): column p of the lower triangle from the diagonal down */
+    double *band;   /* unknowns x rf_chain_stride: column p of the lower triangle from the diagonal down, then zeros */
     double *border; /* unknowns x half: row p couples unknown p to the border */
     double *corner; /* half x half: lower triangle of the border itself */
 } rf_chain;
+
+/* From one column to the next: whole vectors of four numbers from any row of a column on stay within it. */
+static inline size_t rf_chain_stride(size_t half)
+{
+    return (half + 3) / 4 * 4 + 4;
+}
 
 /* Replace the matrix of all new lines by its factor; the diagonals then are inverted. A line after a new one
    is new or empty. */

@@ -12,7 +12,7 @@
 int rf_open_search(rf_search *search, size_t lines, size_t nodes)
 {
     const size_t all = lines * nodes;
-    double *next = malloc((2 * all + all * (nodes + 1) + all * nodes + nodes * nodes) * sizeof(double) + 2 * lines + all);
+    double *next = malloc((2 * all + all * rf_chain_stride(nodes) + all * nodes + nodes * nodes) * sizeof(double) + 2 * lines + all);
     search->memory = next;
     search->keeps = 0;
     search->work.solutions = search->work.lines = 0;
@@ -21,7 +21,7 @@ int rf_open_search(rf_search *search, size_t lines, size_t nodes)
     search->flow = next;
     search->chained = next + all;
     search->chain.band = search->chained + all;
-    search->chain.border = search->chain.band + all * (nodes + 1);
+    search->chain.border = search->chain.band + all * rf_chain_stride(nodes);
     search->chain.corner = search->chain.border + all * nodes;
     search->moved = (uint8_t *)(search->chain.corner + nodes * nodes);
     search->chain.state = search->moved + lines;
@@ -68,10 +68,10 @@ static void set_outflow(const rf_stencil *film, const double *pressure, double *
 }
 
 /* The coefficients of one line: its diagonal, the couplings along it and those to the next line. */
-static void set_line(const rf_search *search, size_t i, double *diagonal, double *along, double *after)
+static void set_line(const rf_search *search, size_t i, size_t stride, double *diagonal, double *along, double *after)
 {
     const rf_stencil *film = search->film;
-    const size_t nodes = film->nodes, stride = nodes + 1;
+    const size_t nodes = film->nodes;
     const double *out = film->around + i * nodes, *in = film->around + line_before(film, i) * nodes;
     const double *axial = film->along + i * nodes;
     const uint8_t *full = search->full + i * nodes, *beyond = search->full + line_after(film, i) * nodes;
@@ -118,7 +118,7 @@ static void set_states(rf_search *search, int all)
 static void assemble(rf_search *search, int all)
 {
     const rf_stencil *film = search->film;
-    const size_t lines = film->lines, half = film->nodes, stride = half + 1;
+    const size_t lines = film->lines, half = film->nodes, stride = rf_chain_stride(half);
     rf_chain *chain = &search->chain;
     chain->half = half;
     chain->lines = lines - 1;
@@ -128,7 +128,7 @@ static void assemble(rf_search *search, int all)
         if (chain->state[k] != RF_LINE_NEW)
             continue;
         memset(rows, 0, half * stride * sizeof(double));
-        set_line(search, (search->cut + 1 + k) % lines, rows, rows + 1, k + 2 < lines ? rows + half : NULL);
+        set_line(search, (search->cut + 1 + k) % lines, stride, rows, rows + 1, k + 2 < lines ? rows + half : NULL);
         ++search->work.lines;
     }
     if (!chain->bordered)
@@ -136,12 +136,12 @@ static void assemble(rf_search *search, int all)
     memset(chain->border, 0, (lines - 1) * half * half * sizeof(double));
     memset(chain->corner, 0, half * half * sizeof(double));
     /* Row p of the border couples to its column j: the line after the cut is the first of the band. */
-    set_line(search, search->cut, chain->corner, chain->corner + half, chain->border);
+    set_line(search, search->cut, half + 1, chain->corner, chain->corner + half, chain->border);
     const size_t before = line_before(film, search->cut) * half;
     double *last = chain->border + (lines - 2) * half * half;
     for (size_t j = 0; j < half; ++j)
         if (search->full[before + j] && search->full[search->cut * half + j])
-            last[j * stride] = -film->around[before + j];
+            last[j * (half + 1)] = -film->around[before + j];
 }
 
 void rf_solve_film(const rf_search *search, const double *right, double *answer)
