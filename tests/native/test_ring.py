@@ -153,7 +153,7 @@ def test_the_fmu_has_the_openings_and_the_start_of_the_film(tmp_path, start, ope
 
 def test_work_of_a_potential():
     # 7.25 systems on 100, 50 and 25 lines, 154 lines factorized for a source alone: half of them are empty,
-    # and the second and third system of a grid keep what the moved edge does not reach. So does the next source.
+    # and the next systems of a grid keep what the moved edge does not reach. So does the next source.
     nodes = 48
     geometry = FilmGeometry(grooves=GROOVES)
     film = ReynoldsFilm(cells=(96, 8), geometry=geometry)
