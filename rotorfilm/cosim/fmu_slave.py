@@ -74,7 +74,7 @@ class FmuSlave(Slave):
 
     def step(self, t: float, dt: float) -> None:
         """Advance from t to t + dt [s]."""
-        self._calling(f"the step from t = {t:.9g} s", self._instance.step, t, dt)
+        self._calling("the step from t = {:.9g} s", self._instance.step, t, dt)
 
     def get(self) -> dict[str, float]:
         """Return the outputs at the present time."""
@@ -164,12 +164,16 @@ class FmuSlave(Slave):
         return self._ports.setdefault(names, self._instance.port(self._inputs(names)))
 
     def _calling(self, doing: str, call: Callable[..., Any], *arguments: Any) -> Any:
-        """Call the FMU; an error status is an FmuError, or FilmContactError, that quotes the log."""
+        """Call the FMU; an error status is an FmuError, or FilmContactError, that quotes the log.
+
+        What it was `doing` may show the arguments in braces.
+        """
         try:
             return call(*arguments)
         except FMICallException as error:
             self._failed = True
-            text = " ".join([f"FMU {self._name!r} failed in {doing}: {error}", *self._instance.log])
+            did = doing.format(*arguments)
+            text = " ".join([f"FMU {self._name!r} failed in {did}: {error}", *self._instance.log])
             touched = any(phrase in text for phrase in CONTACT)
             raise (FilmContactError if touched else FmuError)(text) from error
 
@@ -202,7 +206,7 @@ class ExchangeRotor(Integrated, FmuSlave):
 
     def drive(self, t: float, dt: float, law: ForceLaw, wiring: Wiring) -> None:
         """Advance from t to t + dt [s] under a force law."""
-        self._calling(f"the step from t = {t:.9g} s", super().drive, t, dt, law, wiring)
+        self._calling("the step from t = {:.9g} s", super().drive, t, dt, law, wiring)
 
     def takes_laws(self, wiring: Wiring) -> bool:
         """Return True."""

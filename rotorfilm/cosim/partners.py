@@ -136,15 +136,25 @@ class Partners(PartnerInterface):
         UndefinedDerivativeError
             If a film has none there.
         """
+        slopes = [*map(self._slopes, self._known, self.films.values())]
+        self.work["film_jacobians"] += 1
+        if len(slopes) == 1:
+            return Tangents(-slopes[0][:, :2], -slopes[0][:, 2:4], slopes[0][:, 4].copy())
         found = no_tangents(self.size)
-        for number, (known, film) in enumerate(zip(self._known, self.films.values(), strict=True)):
+        for number, whole in enumerate(slopes):
             own = slice(2 * number, 2 * number + 2)
-            whole = np.zeros((2, len(JOURNAL_INPUTS)))
-            whole[:, known] = film.jacobian(FORCE_OUTPUTS, [JOURNAL_INPUTS[k] for k in known])
             found.stiffness[own, own], found.damping[own, own] = -whole[:, :2], -whole[:, 2:4]
             found.by_speed[own] = whole[:, 4]
-        self.work["film_jacobians"] += 1
         return found
+
+    def _slopes(self, known: Sequence[int], film: Slave) -> Array:
+        """Return the derivatives of the force of a film by JOURNAL_INPUTS, shape (2, 5)."""
+        found = film.jacobian(FORCE_OUTPUTS, [JOURNAL_INPUTS[k] for k in known])
+        if len(known) == len(JOURNAL_INPUTS):
+            return found
+        whole = np.zeros((2, len(JOURNAL_INPUTS)))
+        whole[:, known] = found
+        return whole
 
     def linear_rotor(self, t: float) -> Linearization | None:
         """Return the exact derivatives of the rotor, those of its journals only; None if it has none."""
@@ -161,7 +171,8 @@ class Partners(PartnerInterface):
         forces: list[float] = []
         for film, told in zip(self.films.values(), self._told.values(), strict=True):
             own = require_finite_outputs("film", t, film.get())
-            outputs |= zip(told, (own[name] for name in film.outputs), strict=True)
+            values = [*map(own.__getitem__, film.outputs)]
+            outputs |= zip(told, values, strict=True)
             forces += [own[name] for name in FORCE_OUTPUTS]
         tangents = self._tangents_or_none() if derive else None
         return Sample(t, motion, np.array(forces), tangents, outputs)
@@ -272,7 +283,10 @@ class Record:
         self.require_room(1)
         n, motion = self.count, sample.motion.outputs
         self.time[n], self.force[n] = sample.time, sample.force
-        self.outputs[n] = [*(motion[name] for name in self.rotor), *(sample.outputs[k] for k in self.films)]
+        self.outputs[n] = [
+            *map(motion.__getitem__, self.rotor),
+            *map(sample.outputs.__getitem__, self.films),
+        ]
         if self.tangents.shape[1]:
             self.tangents[n] = (
                 np.nan

@@ -540,6 +540,7 @@ class LawIntegrator:
         self._system, self._inputs = system, system.base.copy()
         self._force, self._position, self._velocity = wiring.places(system.inputs, system.outputs)
         self._matrices: Linearization | None = None
+        self._held = False
 
     def advance(self, t: float, x: Array, dt: float, law: ForceLaw) -> Array:
         """Return the state at t + dt.
@@ -549,6 +550,7 @@ class LawIntegrator:
         ConvergenceError
             If the rotor cannot be integrated.
         """
+        self._held = law.held
         while dt > 0.0:
             kink = self._system.next_kink(t)
             step = min(dt, kink - t)
@@ -603,12 +605,17 @@ class LawIntegrator:
         return np.asarray(found.y[:, -1])
 
     def _rates(self, t: float, x: Array, law: ForceLaw) -> Array:
-        motion = self._system.outcome(t, x, self._inputs)
         u = self._inputs.copy()
-        u[self._force] = law.at(t, motion[self._position], motion[self._velocity])
+        if self._held:
+            u[self._force] = law.force
+        else:
+            motion = self._system.outcome(t, x, self._inputs)
+            u[self._force] = law.at(t, motion[self._position], motion[self._velocity])
         return self._system.rates(t, x, u)
 
     def _loop(self, matrices: Linearization, law: ForceLaw) -> Array:
+        if self._held:
+            return matrices.A
         feedback = law.stiffness @ matrices.C[self._position] + law.damping @ matrices.C[self._velocity]
         return matrices.A - matrices.B[:, self._force] @ feedback
 

@@ -68,9 +68,10 @@ class ForceLaw(NamedTuple):
     @property
     def held(self) -> bool:
         """Whether the force is constant."""
-        none = _zeros(self.slope.shape), _zeros(self.stiffness.shape)
-        rest = (self.slope, self.curvature, self.stiffness, self.damping)
-        return all(any(part is zero for zero in none) or not np.asarray(part).any() for part in rest)
+        known = _zeros(self.slope.shape), _zeros(self.stiffness.shape)
+        if self.slope is self.curvature is known[0] and self.stiffness is self.damping is known[1]:
+            return True
+        return not any(np.any(part) for part in (self.slope, self.curvature, self.stiffness, self.damping))
 
     def at(self, t: float, position: ArrayLike, velocity: ArrayLike) -> Array:
         """Return the force at a time [s] and a motion [m], [m/s], shape (m, ...) [N]."""

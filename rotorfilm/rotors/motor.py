@@ -80,12 +80,13 @@ class LinearMotor:
         """Times [s] at which the idle speed has kinks."""
         return self._profile.times if len(self._profile.times) > 1 else ()
 
-    @property
+    # Asked in each evaluation of a run.
+    @cached_property
     def _profile(self) -> SpeedProfile:
         given = self.idle_speed
         return given if isinstance(given, SpeedProfile) else SpeedProfile.constant(given)
 
-    @property
+    @cached_property
     def _largest(self) -> float:
         return max(abs(speed) for speed in self._profile.speeds)
 
@@ -208,7 +209,7 @@ class MotorDrivenRotor(AroundStructure):
         A[:n, n : 2 * n], A[-2, -1] = np.eye(n), 1.0
         rows = [*range(n, 2 * n), 2 * n + 1]
         A[rows] = np.linalg.solve(inertias, by_state)
-        push = np.vstack([force_rows(self.rotor.structure).T, np.zeros(len(forces))])
+        push = np.vstack([self._push, np.zeros(len(forces))])
         B[rows] = np.linalg.solve(inertias, push)
         sense = self.rotor.operators.sense
         C = np.zeros((len(sense) + 2, 2 * n + 2))
@@ -226,14 +227,16 @@ class MotorDrivenRotor(AroundStructure):
 
     def _turn(self, x: ArrayLike) -> _Turn:
         state = np.asarray(x, dtype=float)
-        q, v = np.split(state[:-2], 2)
+        n = len(state) // 2 - 1
+        q, v = state[:n], state[n:-2]
         cos, sin = math.cos(state[-2]), math.sin(state[-2])
         unbalance = self.rotor.structure.unbalance
         return _Turn(q, v, float(state[-1]), unbalance @ [-sin, cos], unbalance @ [cos, sin])
 
     def _inertias(self, turn: _Turn) -> Array:
-        s, across = self.rotor.structure, turn.across
-        return np.block([[s.mass, across[:, None]], [across[None], np.array([[self.inertia]])]])
+        inertias = self._balanced_inertias.copy()
+        inertias[:-1, -1] = inertias[-1, :-1] = turn.across
+        return inertias
 
     def _loads(self, t: float, turn: _Turn, u: Array) -> Array:
         """Return what acts on the coordinates and on the angle."""
@@ -242,7 +245,7 @@ class MotorDrivenRotor(AroundStructure):
         turned = self._turned @ turn.q
         rubbed = turned @ self._rotating @ (turn.v - w * turned)
         torque = self.torque.torque(t, w) + self._gravity @ turn.across + rubbed
-        return np.append(force_rows(s).T @ u + s.weight + w * w * turn.outward - held, torque)
+        return np.append(self._push @ u + s.weight + w * w * turn.outward - held, torque)
 
     def _load_slopes(self, t: float, turn: _Turn) -> Array:
         """Return the derivatives of `_loads` by the state."""
@@ -261,6 +264,16 @@ class MotorDrivenRotor(AroundStructure):
         by_fall = float(-self._gravity @ turn.outward)
         last = [self._turned.T @ by_turned, inner.T @ turned, np.array([by_fall, on_speed])]
         return np.vstack([np.hstack(columns), np.concatenate(last)])
+
+    @cached_property
+    def _balanced_inertias(self) -> Array:
+        """The inertias of the coordinates and of the angle without unbalance, shape (N + 1, N + 1)."""
+        return np.asarray(beside(self.rotor.structure.mass, np.array([[self.inertia]])))
+
+    @cached_property
+    def _push(self) -> Array:
+        """What forces at the stations do to the coordinates, shape (N, n_forces)."""
+        return force_rows(self.rotor.structure).T
 
     @cached_property
     def _turned(self) -> Array:
