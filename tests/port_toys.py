@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotorfilm import JournalBearing, Linearization, ShortFilm
-from rotorfilm.core.signals import force_outputs, journal_inputs, signals_of
+from rotorfilm.core import force_outputs, journal_inputs, signals_of
 
 
 @dataclass(frozen=True)

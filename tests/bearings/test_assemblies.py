@@ -38,9 +38,9 @@ from rotorfilm import (
 from rotorfilm.analysis import dynamic_stiffness
 from rotorfilm.analysis.force_calls import film_call
 from rotorfilm.bearings import Body, HalfSommerfeld, Series
+from rotorfilm.core import force_outputs, journal_inputs, names
 from rotorfilm.core.dynamic_stiffness import quasi_static, rest_state, small_motion, states_rest
 from rotorfilm.core.port import compiled_force, mass_of, require_range
-from rotorfilm.core.signals import force_outputs, journal_inputs, names
 
 CENTER, SPEED = np.zeros(2), 300.0
 FILM = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.05, film=ShortFilm())

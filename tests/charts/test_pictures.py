@@ -36,7 +36,7 @@ from rotorfilm.charts import (
     plot_waterfall,
     use,
 )
-from rotorfilm.core.results import CircularOrbit
+from rotorfilm.core import CircularOrbit
 
 pytest.importorskip("plotly")
 

@@ -14,7 +14,7 @@ from fmpy.fmi1 import FMICallException
 from rotorfilm import BallBearing, VariableComplianceBalls, back_to_back, export_fmu
 from rotorfilm.bearings import Waviness
 from rotorfilm.bearings.rolling import BALL_FREEDOMS
-from rotorfilm.core.signals import names
+from rotorfilm.core import names
 from rotorfilm.fmu import check_fmu
 from rotorfilm.native import FOLDER
 

@@ -8,7 +8,7 @@ from rotorfilm import EquilibriumError, InputError, ValidityWarning, whirl_thres
 from rotorfilm.analysis import coefficient_table, coefficients, equilibria, equilibrium
 from rotorfilm.bearings import PadGridFilm
 from rotorfilm.bearings.journal import JournalBearing, MapFilm
-from rotorfilm.native.library import loops
+from rotorfilm.native import loops
 
 SPEEDS = np.concatenate([np.geomspace(20.0, 800.0, 9), [-150.0, 150.0]])
 

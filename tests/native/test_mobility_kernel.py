@@ -5,8 +5,7 @@ import pytest
 from fmpy.fmi2 import FMU2Slave
 
 import rotorfilm as rf
-from rotorfilm.bearings import mobility_of
-from rotorfilm.bearings.films.mobility import Mobility
+from rotorfilm.bearings import Mobility, mobility_of
 
 SIZE = {"radius": 0.05, "length": 0.06, "viscosity": 0.02}
 INPUTS, OUTPUTS = ("x", "y", "vx", "vy", "speed"), ("force_x", "force_y")

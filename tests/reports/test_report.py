@@ -17,8 +17,8 @@ from rotorfilm.core import AbsentError
 from rotorfilm.core.frames import ResultTable
 from rotorfilm.reports import Report, ReportSection, Verdict
 from rotorfilm.reports.page import SHOWN, thinned
+from rotorfilm.scenes import read_scene
 from rotorfilm.scenes.new_scene import new_scene
-from rotorfilm.scenes.scene import read_scene
 from rotorfilm.sweeps import scatter_study, tolerance_study
 from rotorfilm.sweeps.tolerance_study import _read
 

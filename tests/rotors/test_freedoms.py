@@ -10,7 +10,7 @@ import rotorfilm as rf
 from rotorfilm import InputError, JournalBearing, LinearBearing, Linearization, RigidShaft, ShortFilm
 from rotorfilm.analysis import axial_modes, torsional_modes
 from rotorfilm.analysis.compiled_rotor import compiled_form, take_apart
-from rotorfilm.core.signals import force_outputs, journal_inputs, names
+from rotorfilm.core import force_outputs, journal_inputs, names
 from rotorfilm.rotors import (
     ClassicalBeam,
     Coupling,

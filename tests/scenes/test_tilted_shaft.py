@@ -9,7 +9,7 @@ import pytest
 import rotorfilm as rf
 from rotorfilm.bearings import MomentCarryingJournal
 from rotorfilm.bearings.journal import TiltLevel
-from rotorfilm.core.errors import SceneError
+from rotorfilm.core import SceneError
 from rotorfilm.scenes.rotor_runs import run_rotor
 from rotorfilm.scenes.solve_shaft import shaft_remarks, solve_rotor
 

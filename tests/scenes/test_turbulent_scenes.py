@@ -12,9 +12,9 @@ from rotorfilm import SceneError, ValidityWarning
 from rotorfilm.bearings import Turbulence
 from rotorfilm.bearings.films import turbulence
 from rotorfilm.bearings.journal.full_stress import eddy_flows, full_stress_forces
+from rotorfilm.scenes import parse_scene
 from rotorfilm.scenes.oil_film_tables import quick
 from rotorfilm.scenes.rotor_runs import after_loss, run_rotor
-from rotorfilm.scenes.scene import parse_scene
 
 TURBINE = """
 schema = 1

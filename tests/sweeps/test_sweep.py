@@ -20,10 +20,9 @@ from rotorfilm import (
     equilibrium,
     sweep,
 )
-from rotorfilm.scenes import Scene
+from rotorfilm.scenes import Scene, read_scene
 from rotorfilm.scenes.reading import quantity_of
 from rotorfilm.scenes.rotor_runs import run_rotor
-from rotorfilm.scenes.scene import read_scene
 from rotorfilm.sweeps.sweep_run import Store
 
 xarray = pytest.importorskip("xarray")

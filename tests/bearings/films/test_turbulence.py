@@ -20,9 +20,9 @@ from rotorfilm.bearings import (
     ReynoldsFilm,
     Turbulence,
     full_stress_forces,
+    mobility_of,
 )
 from rotorfilm.bearings.films import eddy_layers, turbulence
-from rotorfilm.bearings.films.mobility import mobility_of
 from rotorfilm.bearings.journal import ExtrapolatedFilm
 
 SIZE = {"radius": 0.25, "length": 0.4, "clearance": 5e-4}

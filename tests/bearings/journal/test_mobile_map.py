@@ -12,8 +12,7 @@ from numpy.testing import assert_allclose
 import rotorfilm as rf
 from rotorfilm import InputError, ValidityWarning
 from rotorfilm.bearings import MobileMapFilm, Turbulence, mobility_of
-from rotorfilm.bearings.journal import ExtrapolatedFilm, MapFilm, ReynoldsFilm
-from rotorfilm.bearings.journal.mobile_map import MobileMapTable
+from rotorfilm.bearings.journal import ExtrapolatedFilm, MapFilm, MobileMapTable, ReynoldsFilm
 from rotorfilm.fmu import check_fmu, extracted, instantiated
 
 SIZE = {"radius": 0.25, "length": 0.4, "clearance": 5e-4, "viscosity": 0.0163}

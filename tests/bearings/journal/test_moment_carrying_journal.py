@@ -12,10 +12,15 @@ from scipy.optimize import fsolve, nnls
 
 import rotorfilm as rf
 from rotorfilm import FilmContactError, FullFilm, Groove, InputError, Reaction, UndefinedDerivativeError
-from rotorfilm.bearings import ExtrapolatedFilm, HalfSommerfeld, MaximumGapOnset
+from rotorfilm.bearings import (
+    Complementarity,
+    ExtrapolatedFilm,
+    FilmGeometry,
+    HalfSommerfeld,
+    MaximumGapOnset,
+    mobility_of,
+)
 from rotorfilm.bearings.films.finite_volumes import RingKernel, over_whole_length, ring_grids, ring_spans
-from rotorfilm.bearings.films.geometry import Complementarity, FilmGeometry
-from rotorfilm.bearings.films.mobility import mobility_of
 from rotorfilm.bearings.journal import ReynoldsFilm
 
 TURN = np.kron(np.eye(2), [[0.0, 1.0], [-1.0, 0.0]])

@@ -9,8 +9,7 @@ from numpy.testing import assert_allclose
 
 import rotorfilm as rf
 from rotorfilm import FilmContactError, InputError, UndefinedDerivativeError
-from rotorfilm.bearings import ExtrapolatedFilm, PadGridFilm
-from rotorfilm.bearings.films.mobility import mobility_of
+from rotorfilm.bearings import ExtrapolatedFilm, PadGridFilm, mobility_of
 from rotorfilm.bearings.journal import MomentCarryingJournal, TiltLevel, tilt_map
 from rotorfilm.bearings.journal.moment_carrying_journal import moment_share
 

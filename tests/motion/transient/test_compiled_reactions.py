@@ -10,7 +10,7 @@ from scipy.integrate import Radau
 import rotorfilm as rf
 from rotorfilm.analysis import simulate, simulate_rotor
 from rotorfilm.bearings import MapSqueeze
-from rotorfilm.core.errors import ContactError
+from rotorfilm.core import ContactError
 from rotorfilm.rotors import BaseExcitedRotor, BaseMotion, CrackedRotor, GaschHinge, JeffcottCrack, mount
 
 CLEARANCE, TIME = 1e-4, 0.005

@@ -55,9 +55,9 @@ from rotorfilm import (
     whirl_threshold,
 )
 from rotorfilm.bearings import Body, PadMapFilm, PadResolution, Parallel, Series, f4k20_bush
+from rotorfilm.core import names
 from rotorfilm.core.dynamic_stiffness import rest_linearization, rest_state, states_rest
 from rotorfilm.core.port import inertial, mass_of, rest_temperature
-from rotorfilm.core.signals import names
 from rotorfilm.rotors import translations
 
 SPEED = 300.0

@@ -19,7 +19,7 @@ from rotorfilm.bearings.films.mass_conserving import (
     step_storage,
 )
 from rotorfilm.core.time_steps import bdf2
-from rotorfilm.native.library import loops
+from rotorfilm.native import loops
 
 TOP = FilmGeometry(pockets=(Pocket(center=np.pi / 2.0, width=np.radians(20.0), share=0.8),), supply=0.05)
 

@@ -8,7 +8,7 @@ import pytest
 from rotorfilm import Groove, JFOFilm, JournalBearing
 from rotorfilm.bearings.films import mass_conserving_steps
 from rotorfilm.bearings.films.mass_conserving_steps import FilmInMotion
-from rotorfilm.bearings.journal.jfo_film import MomentCarryingJFOFilm
+from rotorfilm.bearings.journal import MomentCarryingJFOFilm
 
 SIZE = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.05}
 OPEN = (Groove(center=math.pi / 2, width=0.3),)

@@ -17,8 +17,8 @@ from rotorfilm.bearings import (
     LayeredTemperature,
     MeanTemperature,
     Turbulence,
+    mobility_of,
 )
-from rotorfilm.bearings.films.mobility import mobility_of
 from rotorfilm.bearings.journal import ReynoldsFilm
 from rotorfilm.bearings.oil.heated_bearing import film_heat
 
