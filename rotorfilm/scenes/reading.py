@@ -46,10 +46,10 @@ def fields_of(
     """
 
     def taking(cls: type[T]) -> type[T]:
-        own, text = inspect.get_annotations(cls), (cls.__doc__ or "").rstrip()
+        own, text = inspect.get_annotations(cls), inspect.cleandoc(cls.__doc__ or "")
         inherited = getattr(cls, "__dataclass_fields__", {})
         told = {*without, *inherited, *(entry.name for entry in entries(text, cls.__name__))}
-        text += "" if "Parameters\n" in text else "\n\n    Parameters\n    ----------"
+        text += "" if "Parameters\n" in text else "\n\nParameters\n----------"
         hints: dict[str, Any] = {}
         for home in homes:
             for name, default in _parameters(home).items():
@@ -83,15 +83,13 @@ def _parameters(home: Callable[..., Any]) -> dict[str, Any]:
 
 
 def _entry(home: Callable[..., Any], name: str) -> str:
-    """Return what is said of a parameter as an entry of an indented docstring."""
+    """Return what is said of a parameter as an entry of a docstring without indentation."""
     if isinstance(home, type):
         wording = explained(home, name)
     else:
         wording = next(one for one in entries(home.__doc__ or "", name) if one.name == name)
     unit = f" [{wording.unit}]" if wording.unit else ""
-    return f"\n    {name} : {wording.kind}{unit}" + (
-        f"\n        {wording.meaning}" if wording.meaning else ""
-    )
+    return f"\n{name} : {wording.kind}{unit}" + (f"\n    {wording.meaning}" if wording.meaning else "")
 
 
 class Taking:
