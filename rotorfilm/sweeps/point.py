@@ -112,7 +112,8 @@ def _told(row: Row) -> Iterator[set[str]]:
             yield remarks
         except RotorfilmError as error:
             row["failure"] = f"{type(error).__name__}: {error}"
-    remarks |= {str(each.message) for each in caught if issubclass(each.category, ValidityWarning)}
+    told = {str(each.message) for each in caught if issubclass(each.category, ValidityWarning)}
+    remarks |= {message for message in told if message not in row["remarks"]}
     row["remarks"] = "; ".join(sorted(remarks))
 
 
@@ -194,7 +195,7 @@ class Axis:
         if known is None and all(_is_number(value) for value in self.values):
             return list(self.values), ""
         for reader in map(Quantity, UNITS) if known is None else (known,):
-            with contextlib.suppress(InputError):
+            with contextlib.suppress(InputError, TypeError):  # a table is no quantity
                 return [reader.parse(value) for value in self.values], reader.unit
         return [str(value) for value in self.values], ""
 

@@ -109,9 +109,9 @@ def sweep(
     if workers is not None:
         require_count("workers", workers)
         require_at_most("workers", workers, WORKERS)
-    read = check(tables, axes, source)
     if runs and dask is not None:
-        raise InputError(f"dask must be None for runs, got {dask!r}")
+        raise InputError(f"dask must be None for runs, which share threads of this process, got {dask!r}")
+    read = check(tables, axes, source)
     name = _name(tables, axes, runs)
     if target is not None and target.is_file():
         return load(target, name)
@@ -347,8 +347,8 @@ def solved_here(
         yield number, solve_point(scene, values, source, read.get(number))
 
 
-RUNS = 8
-"""Runs of each thread whose results wait to be kept; each has megabytes of samples."""
+RUNS_PER_THREAD = 2
+"""Runs whose results wait to be kept; each has megabytes of samples."""
 
 
 def runs_here(
@@ -356,8 +356,8 @@ def runs_here(
 ) -> Iterator[tuple[int, Row]]:
     """Yield the rows of points that are runs over time, some for each of `workers` threads at once."""
     cores = workers or os.cpu_count() or 1
-    for k in range(0, len(todo), RUNS * cores):
-        yield from run_points(scene, todo[k : k + RUNS * cores], source, read, cores).items()
+    for k in range(0, len(todo), RUNS_PER_THREAD * cores):
+        yield from run_points(scene, todo[k : k + RUNS_PER_THREAD * cores], source, read, cores).items()
 
 
 START, ANSWER = 3.0, 1.0

@@ -26,6 +26,7 @@ from rotorfilm import (
 )
 from rotorfilm.analysis import rotor_equilibrium
 from rotorfilm.bearings import AxialFeed, MapSqueeze
+from rotorfilm.bearings.journal import RotatingArc
 from rotorfilm.native.resource import carried_library
 from rotorfilm.rotors import (
     Disk,
@@ -317,7 +318,7 @@ def test_parameters_reach_their_bearing(unzipped):
 
 
 def test_a_rotor_on_a_film_without_kernel_has_none():
-    film = SplittingFilm(order=(4, 2), constant=True)
+    film = SplittingFilm(order=(4, 2), constant=True, rupture=RotatingArc())
     own = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=film)
     rotor = RigidShaft(
         mass=50.0,

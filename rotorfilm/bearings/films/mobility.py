@@ -244,11 +244,11 @@ PIECES = 16
 """Of an arc, on which a gap is integrated."""
 
 
-def without_oil(film: Any) -> Any:
-    """Return a film whose map over the Reynolds number serves all bearings and oils of one shape."""
+def of_unit_density(film: Any) -> Any:
+    """Return a film without the scale of its bearing and with a density of 1, as its map is kept."""
     mobility = film.mobility
-    some = replace(mobility, density=1.0) if mobility is not None and mobility.density else mobility
-    return replace(film, reynolds_scale=0.0, mobility=some)
+    unit = replace(mobility, density=1.0) if mobility is not None and mobility.density else mobility
+    return replace(film, reynolds_scale=0.0, mobility=unit)
 
 
 def per_rate(mobility: Mobility | None, reynolds_scale: float) -> float:

@@ -21,7 +21,7 @@ from ..films.geometry import AlignedOpenings, FilmGeometry, aligned_openings, re
 from ..films.law import FilmLosses, KernelFilm, gap_shear, kernel_losses, require_film, static_rate
 from ..films.map_fit import MapPlan, nine_digits
 from ..films.map_growth import SCALE, GrowthMap, require_map_law
-from ..films.mobility import Mobility, law_of, per_rate, require_same_mobility, without_oil
+from ..films.mobility import Mobility, law_of, of_unit_density, per_rate, require_same_mobility
 from .groove_map import GrooveMap, GrooveMapTable, Resolution, nearest
 from .map_film import MapFilm
 from .reynolds_film import ReynoldsFilm
@@ -234,7 +234,7 @@ def _table_of(film: GroovedMapFilm, slenderness: float) -> GrooveMapTable:
 def _kernels(film: GroovedMapFilm, slenderness: float) -> tuple[MapKernel, LossKernel]:
     """Return the compiled film of a bearing, and its losses; without one Re is the rate."""
     scale, axis = film.reynolds_scale, aligned_openings(film.geometry).axis
-    table = _table_of(without_oil(film), slenderness)
+    table = _table_of(of_unit_density(film), slenderness)
     if film.mobility is None or not film.is_grown:
         return table.kernel(axis), table.loss_kernel(axis)
     grown = per_rate(film.mobility, scale) if scale else 1.0

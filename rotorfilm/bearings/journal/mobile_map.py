@@ -44,10 +44,10 @@ from ..films.map_table import ERRORS, BoundedTable, require_shapes, stretch
 from ..films.mobility import (
     Mobility,
     checksum_of,
+    of_unit_density,
     per_rate,
     require_mobility,
     require_same_mobility,
-    without_oil,
 )
 from .map_film import MapFilm, packaged_table
 from .reynolds_film import ExtrapolatedFilm, ReynoldsFilm
@@ -229,7 +229,7 @@ class MobileMapFilm(KernelFilm):
 @lru_cache(maxsize=64)
 def _kernel_of(film: MobileMapFilm, slenderness: float) -> MapKernel:
     grown = per_rate(film.mobility, film.reynolds_scale)
-    return _table_of(without_oil(film), slenderness).kernel(grown)
+    return _table_of(of_unit_density(film), slenderness).kernel(grown)
 
 
 @lru_cache(maxsize=16)

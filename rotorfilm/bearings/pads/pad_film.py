@@ -22,11 +22,11 @@ from ..films.map_growth import GrowthMap, require_map_law
 from ..films.mobility import (
     Mobility,
     law_of,
+    of_unit_density,
     per_rate,
     require_mobility,
     require_same_mobility,
     with_mobility,
-    without_oil,
 )
 from .pad_build import CELLS, FINE, NEAR, PadMap, PadResolution, pad_grid
 from .pad_table import PadFlows, PadMapTable, grid_flows
@@ -181,7 +181,7 @@ def _table_of(film: PadMapFilm, extent: float, slenderness: float) -> PadMapTabl
 
 @lru_cache(maxsize=64)
 def _kernel_of(film: PadMapFilm, extent: float, slenderness: float) -> MapKernel:
-    table = _table_of(without_oil(film), extent, slenderness)
+    table = _table_of(of_unit_density(film), extent, slenderness)
     if not film.is_grown or film.mobility is None:
         return table.kernel()
     return table.kernel(per_rate(film.mobility, film.reynolds_scale), film.mobility.density)

@@ -493,8 +493,11 @@ class StaticTiltingPads:
 QUICK = PadGridFilm(cells=(32, 4))
 """The film of one viscosity with which the search for the tilts begins."""
 
-STEPS, SETTLED, SHARE, PATIENCE = 60, 1e-13, 0.5, 8
-"""Newton's method: most steps, the last in clearances, the largest in least films, steps that may stall."""
+STEPS, SETTLED, SHARE = 60, 1e-13, 0.2
+"""Newton's method: most steps, the last in clearances, and the least film that a step may leave of a film."""
+
+THINNEST = 0.003
+"""Least film, in clearances and squares of the angle of a cell, whose moment the cells still tell."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -600,22 +603,26 @@ class FrozenTiltingPads(StaticTiltingPads):
             )
         middle = np.einsum("kij,i->jk", Q, position / c) + np.array([[bearing.preload], [0.0]])
         spring = (bearing.pivot_stiffness or 0.0) * c / bearing.force_scale
-        moves: list[float] = []
-        while len(moves) < STEPS and not _stalled(moves):
+        width = 2.0 * math.pi / self._lines.shape[1]
+        for _ in range(STEPS):
             response = self.film.responses(self._seen(position, places), np.zeros(2), speed, self._lines)
             force, by_speed = (np.einsum("kai,ka->ki", Q, response[:, :, k]) for k in (0, 5))
             by_e, by_w = (np.einsum("kai,kab,kbj->kij", Q, response[:, :, k : k + 2], Q) for k in (1, 3))
             moment = loaded & (by_e[:, 1, 1] != 0.0)
             tilted = TiltedFilm(places, force, (by_e, by_w), by_speed, moment)
-            least = least_film(R @ (middle + places), bearing.extent)
             move = _newton_step(tilted, spring) * tilted.loaded
-            places = places + move * np.minimum(1.0, SHARE * least / np.maximum(np.hypot(*move), 1e-300))
-            moves.append(float(np.abs(move).max()))
-            if moves[-1] <= SETTLED:
+            if np.abs(move).max() <= SETTLED:
                 return tilted
+            before = least_film(R @ (middle + places), bearing.extent)
+            if before[tilted.loaded].min(initial=math.inf) < THINNEST * width**2:
+                break
+            places = places + move
+            while (closed := least_film(R @ (middle + places), bearing.extent) < SHARE * before).any():
+                move = 0.5 * move * closed
+                places = places - move
         raise ConvergenceError(
-            f"the tilts of pads on their film must be found, and were not in {len(moves)} steps, with a "
-            f"journal at {position.tolist()} m: the cells may be too coarse for a film so thin"
+            f"the tilts of pads on their film must be found, and were not, with a journal at "
+            f"{position.tolist()} m: the cells may be too coarse for {least_films(c * before)}"
         )
 
     def _solved(self, position: Array, speed: float) -> RestPoint:
@@ -640,11 +647,6 @@ class FrozenTiltingPads(StaticTiltingPads):
             "unloaded": (~loaded).astype(float),
         }
         return RestPoint(-load @ normal, slopes, pads, Status.OK, 0)
-
-
-def _stalled(moves: list[float]) -> bool:
-    """Return whether the last steps of Newton's method have not come closer by half."""
-    return len(moves) > PATIENCE and moves[-1] > 0.5 * moves[-1 - PATIENCE]
 
 
 def _require_rotation(speed: float) -> None:

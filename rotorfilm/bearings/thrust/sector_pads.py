@@ -669,6 +669,10 @@ class SectorPads(WarmBearing):
         fresh = 0.5 + carried / (1.0 - carried)  # (T - supply) / rise
         return balance_temperature(FilmHeat(power, 1.0, inflow / fresh, 0.0), oil, cooling)
 
+    def next_temperature(self, position: ArrayLike, speed: float) -> float:
+        """Return `balanced_temperature`, in which shape and flow do not depend on the viscosity."""
+        return self.balanced_temperature(position, np.zeros(3), speed)
+
     def in_time(self, start_temperature: float | None = None) -> Any:
         """Return the bearing as it runs: its film keeps the temperature of the rest."""
         if start_temperature is None:

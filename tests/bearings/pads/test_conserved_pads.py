@@ -268,15 +268,17 @@ def test_cells_too_coarse_for_a_thin_film_are_refused_and_finer_ones_are_not():
         extent=1.0,
         preload=0.3,
     )
-    place = 0.79 * 7e-5 * np.array([np.cos(-1.77), np.sin(-1.77)])
-    with pytest.raises(
-        ConvergenceError, match=r"in \d steps, .*: the cells may be too coarse for a film so thin"
-    ):
-        JFOFilm(bearing=bearing, cells=(36, 4)).force(place, REST, 500.0)
-    forces = [
-        JFOFilm(bearing=bearing, cells=cells).force(place, REST, 500.0) for cells in ((144, 6), (216, 8))
-    ]
-    assert_allclose(forces[0], forces[1], rtol=0.03)
+
+    def force(cells, ratio, angle):
+        return JFOFilm(bearing=bearing, cells=cells).force(
+            ratio * 7e-5 * np.array([np.cos(angle), np.sin(angle)]), REST, 500.0
+        )
+
+    with pytest.raises(ConvergenceError, match="the cells may be too coarse for least films of "):
+        force((36, 4), 0.79, -1.77)
+    assert_allclose(force((144, 6), 0.79, -1.77), force((216, 8), 0.79, -1.77), rtol=0.03)
+    # Steps that the wall shortens are no reason to give up.
+    assert_allclose(force((36, 4), 0.8, -1.8), force((144, 6), 0.8, -1.8), rtol=0.2)
 
 
 def test_an_equilibrium_with_heat_balances():
