@@ -276,6 +276,13 @@ def test_a_row_is_read_and_its_bearing_made_once(monkeypatch, dimension):
     assert len(reads) == len(made) == len(CLEARANCES)
 
 
+def test_tables_vary_as_text():
+    films = [{"name": "short"}, {"name": "map"}]
+    found = sweep(SCENE, {"journal.film": films}, workers=1)
+    assert [str(value) for value in found["journal_film"].values] == [str(film) for film in films]
+    assert found["eccentricity_ratio"][0] != found["eccentricity_ratio"][1]
+
+
 def test_samples_are_checked_together():
     # A clearance of 6 mm fits the second radius and not the first.
     samples = {"journal.clearance": ("n", [1e-4, 6e-3]), "journal.radius": ("n", [5e-3, 0.4])}

@@ -43,8 +43,8 @@ RF_EXPORT_LOOP void rf_sharpen_oil(const rf_oil_shape *shape, const rf_oil_gap *
 
 /* The film after a step of length dt in the gap at its end, where walls carry the oil with a speed of `rate`: by
    differences of second order of the last two contents; of first order where there was no step before, or one less
-   than half as long, or where the former would take more from a cell than it has. Theta of the film nearby tells
-   by how much transport differs from that of upstream values. RF_STUCK, RF_MEMORY. */
+   than half as long, or where the former would take more from a cell than it has. Theta that comes in `found`
+   tells by how much transport differs from that of upstream values. RF_STUCK, RF_MEMORY. */
 RF_EXPORT_LOOP int rf_oil_step(const rf_oil_shape *shape, const rf_oil_gap *gap, double rate, const rf_oil_past *past,
                                double dt, rf_oil_found *found);
 

@@ -62,8 +62,8 @@ RF_EXPORT_LOOP int rf_oil_travel(const rf_oil_film_si *film, double t, const dou
 
 /* Try one inner step to a motion and leave the block as it is: `end` is the block there, and unless NULL `stiffness` is
    -d force / d (x, y) [N/m], 2 x 2. Of the block `near` it takes the cells that are full.
-   Theta as the last two contents foresee it says by how much transport differs from that of upstream values: it is the
-   same in all trials of a step, which would jump otherwise. RF_STUCK, RF_MEMORY. */
+   Theta as the last two contents foresee it, in the gap of the trial and 1 in cells that are full in `near`, says by how
+   much transport differs from that of upstream values. RF_STUCK, RF_MEMORY. */
 RF_EXPORT_LOOP int rf_oil_attempt(const rf_oil_film_si *film, const double *block, const double *near, const double *motion,
                                   double dt, double *end, double *stiffness, int64_t *work);
 
