@@ -43,8 +43,16 @@ def sweep(
         if key in parameters:
             raise InputError(f"--vary must be given once for each key, got {brief(key)} twice")
         parameters[key] = values
-    how: dict[str, Any] = {"workers": workers, "dask": dask, "runs": runs}
-    dataset = run(scene, parameters, path=out, changes=read_settings(changes), **how, report=report)
+    dataset = run(
+        scene,
+        parameters,
+        path=out,
+        changes=read_settings(changes),
+        workers=workers,
+        dask=dask,
+        runs=runs,
+        report=report,
+    )
     failed = int((dataset["failure"] != "").sum())
     remarks = int((dataset["remarks"] != "").sum())
     answer = {

@@ -278,21 +278,17 @@ def check(scene: Mapping[str, Any], axes: Sequence[Axis], source: str) -> dict[i
         stride //= length
         for k in range(length):
             values = {axis.key: axis.values[k] for axis in axes if axis.dimension == dimension}
-            read = _quietly_read(varied(scene, {**first, **values}), source)
-            if read is None:
+            tables = varied(scene, {**first, **values})
+            try:
+                with warnings.catch_warnings(record=True) as caught, said_once(anew=True):
+                    warnings.simplefilter("always")
+                    read = read_scene(tables, source)
+            except RotorfilmError:
                 for key, value in values.items():
                     read_scene(varied(scene, {**first, key: value}), f"{source}, {key} = {value!r}")
+                continue
+            if caught:
+                read_scene(tables, source)
             elif len(found) < KEPT:
                 found[k * stride] = read
     return found
-
-
-def _quietly_read(tables: Mapping[str, Any], source: str) -> Scene | None:
-    """Return the scene of these tables; None if reading it gives an error or a warning."""
-    with warnings.catch_warnings(record=True) as caught, said_once(anew=True):
-        warnings.simplefilter("always")
-        try:
-            read = read_scene(tables, source)
-        except RotorfilmError:
-            return None
-    return None if caught else read

@@ -8,6 +8,7 @@ import pytest
 from rotorfilm import InputError
 from rotorfilm.cli.sweep_command import read_variation
 from rotorfilm.scenes import Scene
+from rotorfilm.scenes.rotor_runs import run_rotor
 
 xarray = pytest.importorskip("xarray")
 pytest.importorskip("h5netcdf")
@@ -33,6 +34,17 @@ def test_a_sweep_becomes_netcdf(run, tmp_path):
         changes = {"journal.clearance": "90 um", "operation.speed": "2000 rpm", "operation.load": "400 N"}
         alone = Scene.load(SHORT, changes).solve()
         assert float(found["eccentricity_ratio"][0, 2]) == alone.equilibrium.eccentricity_ratio
+
+
+def test_runs_over_time_become_netcdf(run, tmp_path):
+    scene, out = tmp_path / "scene.toml", tmp_path / "out.nc"
+    further = "\n[cosimulation]\nrevolutions = 2\n"
+    scene.write_text(SHORT.read_text(encoding="utf-8") + further, encoding="utf-8")
+    arguments = ["sweep", str(scene), "--runs", "--vary", "journal.clearance = 90 um, 100 um"]
+    assert run(*arguments, "--out", str(out), "--json")[0] == 0
+    with xarray.open_dataset(out, engine="h5netcdf") as found:
+        alone = run_rotor(Scene.load(scene, {"journal.clearance": "100 um"}))
+        assert float(found["journal_peak"][1]) == alone.peaks["journal"]
 
 
 def test_help_has_an_example(run):

@@ -292,6 +292,10 @@ def test_samples_are_checked_together():
         "operation": {"speed": 1e3, "load": 1e-3},
     }
     assert (sweep(scene, samples, workers=1)["failure"] == "").all()
+    # So it is where the scene of a sample warns.
+    scene["journal"] |= {"length": 1.0}
+    with pytest.warns(ValidityWarning, match="length / diameter"):
+        assert (sweep(scene, samples, workers=1)["failure"] == "").all()
 
 
 def test_each_row_has_the_warnings_of_its_scene():
@@ -320,6 +324,10 @@ def test_bad_parameters_are_named_before_the_work(parameters, message):
 def test_bad_workers_are_named():
     with pytest.raises(InputError, match="workers must be an integer, at least 1, got 0"):
         sweep(SCENE, {"journal.clearance": CLEARANCES}, workers=0)
+    with pytest.raises(
+        InputError, match="dask must be None for runs, which share threads of this process, got"
+    ):
+        sweep(RUNNING, {"journal.clearance": CLEARANCES}, runs=True, dask="tcp://host:8786")
 
 
 def test_a_bush_answers_with_its_contact():

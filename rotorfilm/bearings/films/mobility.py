@@ -240,6 +240,7 @@ def require_same_mobility(told: float, mobility: Mobility | None) -> None:
 
 GAUSS = np.polynomial.legendre.leggauss(24)
 """Places and weights on (-1, 1)."""
+
 PIECES = 16
 """Of an arc, on which a gap is integrated."""
 

@@ -614,10 +614,10 @@ class FrozenTiltingPads(StaticTiltingPads):
             if np.abs(move).max() <= SETTLED:
                 return tilted
             before = least_film(R @ (middle + places), bearing.extent)
-            if before[tilted.loaded].min(initial=math.inf) < THINNEST * width**2:
+            if before[moment].min(initial=math.inf) < THINNEST * width**2:
                 break
-            places = places + move
-            while (closed := least_film(R @ (middle + places), bearing.extent) < SHARE * before).any():
+            places, thin = places + move, SHARE * before
+            while (closed := moment & (least_film(R @ (middle + places), bearing.extent) < thin)).any():
                 move = 0.5 * move * closed
                 places = places - move
         raise ConvergenceError(
