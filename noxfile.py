@@ -42,9 +42,10 @@ def docs(session: nox.Session) -> None:
 
 @nox.session(default=False)
 def packages(session: nox.Session) -> None:
-    """Build the source distribution and a wheel into dist/."""
-    session.install("build")
-    session.run("python", "-m", "build")
+    """Build the source distribution, and a wheel for each platform, into dist/."""
+    session.install("build", "wheel", ".[platforms]")
+    session.run("python", "-m", "build", "--sdist")
+    session.run("python", "tools/build_wheels.py")
 
 
 if __name__ == "__main__":

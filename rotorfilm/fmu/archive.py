@@ -150,12 +150,17 @@ def read_description(path: str) -> Any:
         raise _unreadable(path, "no such file")
     _require_version(path)
     try:
-        description = fmpy.read_model_description(path, validate=False)
+        description = _described(path, validate=False)
     except Exception as error:
         # What fmpy stumbles over is for the schema to name.
         raise _unreadable(path, _first_problem(path) or str(error)) from error
     _require_essentials(path, description)
     return description
+
+
+def _described(path: str, validate: bool) -> Any:
+    with open(path, "rb") as file:  # fmpy leaves a path's own file open where it raises
+        return fmpy.read_model_description(file, validate=validate)
 
 
 def _require_version(path: str) -> None:
@@ -188,7 +193,7 @@ def _require_essentials(path: str, description: Any) -> None:
 def _first_problem(path: str) -> str | None:
     """Return the first deviation from the schema, if that says more than what went wrong."""
     try:
-        fmpy.read_model_description(path, validate=True)
+        _described(path, validate=True)
     except ValidationError as error:
         return f"modelDescription.xml, {error.problems[0]}"
     except Exception:
