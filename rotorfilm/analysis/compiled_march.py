@@ -63,8 +63,9 @@ def simulate_rotor(
 ) -> Trajectory:
     """Return the motion of a rotor on films from t = 0.
 
-    The shaft is integrated exactly in its modes, and the film forces by collocation of order 7 with their
-    exact derivatives (`native/loops/march.h`), all of it compiled. A step costs some ten microseconds.
+    The shaft is integrated exactly in its modes, and the film forces by collocation with their exact
+    derivatives (`native/loops/march.h`), of order 7, or of order 15 where `rtol` is below 1e-11, all of it
+    compiled. A step costs some ten microseconds.
 
     On springs and dampers at constant speed the motion is exact at every sample, and no steps are taken.
 
@@ -177,7 +178,8 @@ def _run(
         return _trajectory(mounted, grid, exact, parts, dict.fromkeys(_COUNTERS, 0)), exact, None
     rate = parts.nominal_speed or rate_of(compiled_rotor.modal_rotor(parts, 0.0))
     longest = min(max_step, duration, LONGEST_TURN * 2.0 * np.pi / rate)
-    run = RunUp(parts, state, duration, partial(March, rtol=rtol, longest=longest, duration=duration))
+    march = partial(March, rtol=rtol, longest=longest, duration=duration, stages=stages_of(rtol))
+    run = RunUp(parts, state, duration, march)
     kept: list[Array] = [np.zeros((0, len(state))), *([state[None]] if grid.size and grid[0] == 0.0 else [])]
     try:
         kept.extend(run.states(grid))
@@ -255,8 +257,13 @@ def linear_states(parts: compiled_rotor.Parts, state: Array, grid: Array) -> Arr
 # Steps of a rotor in modes under forces that are polynomials of time (`native/loops/collocation.h`).
 
 
-STAGES = 4
-"""Collocation nodes of a step: order 7."""
+STAGES, MORE_STAGES, ACCURATE = 4, 8, 1e-11
+"""Collocation nodes of a step: order 7; and order 15 for local errors below the last number."""
+
+
+def stages_of(rtol: float) -> int:
+    """Return the collocation nodes with which a local error costs least."""
+    return MORE_STAGES if rtol < ACCURATE else STAGES
 
 
 class Collocation(NamedTuple):

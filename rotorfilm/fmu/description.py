@@ -255,16 +255,14 @@ class Description(NamedTuple):
         return any(variable.variability == "tunable" for variable in self.variables)
 
 
-def to_xml(description: Description, version: str, token: str) -> bytes:
-    """Return modelDescription.xml; equal arguments give equal bytes.
+def to_xml(description: Description, version: str) -> bytes:
+    """Return modelDescription.xml with an empty token; equal arguments give equal bytes.
 
     Parameters
     ----------
     description : Description
     version : str
         Version of FMI, "2.0" or "3.0".
-    token : str
-        What FMI 2.0 calls guid, FMI 3.0 instantiationToken.
     """
     second = version == "2.0"
     root = Element(
@@ -272,7 +270,7 @@ def to_xml(description: Description, version: str, token: str) -> bytes:
         {
             "fmiVersion": version,
             "modelName": description.identifier,
-            "guid" if second else "instantiationToken": token,
+            _TOKENS[version]: "",
             "description": description.title,
             **({"author": description.author} if description.author else {}),
             "copyright": description.copyright,
@@ -298,6 +296,14 @@ def to_xml(description: Description, version: str, token: str) -> bytes:
         _add_variable(variables, reference, elements_of(description.variables, reference), second)
     (_add_structure2 if second else _add_structure3)(SubElement(root, "ModelStructure"), description)
     return to_bytes(root)
+
+
+_TOKENS = {"2.0": "guid", "3.0": "instantiationToken"}
+
+
+def with_token(xml: bytes, version: str, token: str) -> bytes:
+    """Return a description of `to_xml` with its token, which FMI 2.0 calls guid."""
+    return xml.replace(f'{_TOKENS[version]}=""'.encode(), f'{_TOKENS[version]}="{token}"'.encode(), 1)
 
 
 def _generated() -> dict[str, str]:

@@ -31,8 +31,11 @@ from ..rotors import MountedRotor
 if TYPE_CHECKING:
     import control
 
-ROWS, DRIVEN_ROWS = 51, 11
-"""Rows of a table, and those of a rotor with inputs, whose jumps keep its stiff shaft ringing."""
+ROWS, FEW_ROWS = 51, 11
+"""Rows of a table, and those of a rotor whose stiff shaft rings: one with inputs, which jump, or large."""
+
+LARGE = 200
+"""States of a rotor in bearings beyond which its table has `FEW_ROWS`."""
 
 TOLERANCE = 1e-13
 """Local error of the integration, near the smallest that has a meaning."""
@@ -67,9 +70,9 @@ def reference_table(model: Model | Stepped, start: Array, duration: float) -> Ar
     time: Array = np.linspace(0.0, duration, ROWS)
     if isinstance(model, MountedRotor):
         time = _within_a_turn(model, start, time)
-        if model.inputs:
-            time = time[:DRIVEN_ROWS]
-        elif (table := _compiled(model, time)) is not None:
+        if model.inputs or len(model.states) > LARGE:
+            time = time[:FEW_ROWS]
+        if not model.inputs and (table := _compiled(model, time)) is not None:
             return table
     nominal = np.array([signal.nominal for signal in model.inputs])
     cycles = np.arange(1, len(nominal) + 1)

@@ -98,3 +98,18 @@ def test_the_table_of_a_rotor_with_inputs_ends_after_a_fifth_of_a_turn():
     assert table[-1, 0] == pytest.approx(0.4 * np.pi / 200.0, rel=1e-12)
     assert len(table) == 11
     assert (np.ptp(table[:, 1 : 1 + len(model.inputs)], axis=0) > 0.0).all()
+
+
+def test_the_table_of_a_large_rotor_ends_after_a_fifth_of_a_turn():
+    steel = ElasticMaterial(young_modulus=2.1e11, shear_modulus=8.1e10, density=7800.0)
+    rotor = ShaftRotor(
+        elements=ShaftElement(length=0.6, outer_diameter=0.05, material=steel).split(26),
+        stations=(Station(node=0, name="left"), Station(node=26, name="right")),
+        unbalances=(Unbalance(node=13, unbalance=1e-4),),
+        speed=157.0,
+    )
+    model = mount(rotor, {"left": BEARING, "right": BEARING})
+    assert len(model.states) > 200
+    table = reference_table(model, np.zeros(0), 0.1)
+    assert table[-1, 0] == pytest.approx(0.4 * np.pi / 157.0, rel=1e-12)
+    assert len(table) == 11

@@ -30,6 +30,7 @@ from ..description import (
     structured_name,
     terminal_files,
     to_xml,
+    with_token,
 )
 from ..documentation import capabilities, general_texts, table_of, to_html
 from ..reference import reference_table, to_csv
@@ -107,9 +108,10 @@ def native_contents(export: Export, described: dict[str, Any]) -> dict[str, byte
     contents |= _binaries(export, sources) | _files(export, variables)
     resource = f"resources/{FILE_NAME}"
     unnamed = {**contents, resource: pack(export.spec, "", variables)}
-    token = guid_of(unnamed, to_xml(description, version, ""))
+    xml = to_xml(description, version)
+    token = guid_of(unnamed, xml)
     contents[resource] = pack(export.spec, token, variables)
-    return {**contents, "modelDescription.xml": to_xml(description, version, token)}
+    return {**contents, "modelDescription.xml": with_token(xml, version, token)}
 
 
 def _interfaces(model: Model | Stepped, version: str) -> dict[str, dict[str, str]]:

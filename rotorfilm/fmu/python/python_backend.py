@@ -20,7 +20,7 @@ from ...core.signals import Variable
 from ...core.sources import PACKAGE, ROOT, import_closure, imported_names, module_path, source_of
 from ...native.library import FILMS, LOOPS, library_path
 from ..archive import binaries, content_hash, guid_of, licenses, require_verified_version
-from ..description import Description, dependencies, fmi_variables, terminal_files, to_xml
+from ..description import Description, dependencies, fmi_variables, terminal_files, to_xml, with_token
 from ..documentation import capabilities, general_texts, table_of, to_html
 from .codec import class_modules, decode, encode, shortened
 
@@ -281,8 +281,8 @@ def python_contents(
     component = description.identifier
     contents = _files(model, component, description.title, start, variables, prefix)
     contents |= terminal_files(model, component, variables, prefix, icon=False)
-    guid = guid_of(contents, to_xml(description, "2.0", ""))
-    return {**contents, "modelDescription.xml": to_xml(description, "2.0", guid)}
+    xml = to_xml(description, "2.0")
+    return {**contents, "modelDescription.xml": with_token(xml, "2.0", guid_of(contents, xml))}
 
 
 def _files(
