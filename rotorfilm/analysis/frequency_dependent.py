@@ -5,16 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from ..core.dynamic_stiffness import DynamicStiffness, InertialStiffness, states_rest
+from ..core.dynamic_stiffness import DynamicStiffness, InertialStiffness, states_rest, stiffnesses
 from ..core.errors import ConvergenceError
 from ..core.model import Array
-from ..core.port import Bearings, freedoms_of
+from ..core.port import Bearings, Complex, freedoms_of
 from ..core.results import Coefficients, FrequencyDependentCoefficients, InertialCoefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
@@ -76,17 +75,18 @@ def rotor_growing(structure: Structure, at: RotorEquilibrium, values: np.ndarray
     system, rows = rotor_matrices.second_order(structure, near), all_rows(structure, still)
     mass, damping, stiffness = (np.asarray(part) for part in system)
 
-    def ratio(nu: float) -> complex:
+    def ratio(nu: Array) -> Complex:
         # Beside the axis, on which motion that nothing damps has its exponents.
         s = 1j * nu + GROWTH_ROUNDOFF * (nu + abs(at.speed))
-        change = np.zeros((len(rows), len(rows)), dtype=complex)
+        each = s[:, None, None]
+        change = np.zeros((len(s), len(rows), len(rows)), dtype=complex)
         first = 0
         for film, motion in films.values():
             own = slice(first, first + len(film.stiffness))
-            change[own, own] = motion.stiffness(s) - film.stiffness - s * film.damping
+            change[:, own, own] = stiffnesses(motion, s) - film.stiffness - each * film.damping
             first = own.stop
-        receptance = rows @ np.linalg.solve(stiffness + s**2 * mass + s * damping, rows.T)
-        return complex(np.linalg.det(np.eye(len(rows)) + receptance @ change))
+        receptance = rows @ np.linalg.solve(stiffness + each**2 * mass + each * damping, rows.T)
+        return np.asarray(np.linalg.det(np.eye(len(rows)) + receptance @ change))
 
     reference, vectors = np.linalg.eig(system.state_matrix())
     own = [_poles(motion) for _, motion in films.values()]
@@ -256,9 +256,9 @@ def rigid_growing(film: FrequencyDependentCoefficients, mass: float) -> int:
     k = float(np.abs(film.stiffness).max())
     c = float(np.abs(film.damping).max())
 
-    def ratio(nu: float) -> complex:
-        D = motion.stiffness(1j * nu) - mass * nu**2 * np.eye(2)
-        return complex(np.linalg.det(D) / (math.sqrt(k) + 1j * nu * math.sqrt(mass)) ** 4)
+    def ratio(nu: Array) -> Complex:
+        D = stiffnesses(motion, 1j * nu) - np.multiply.outer(mass * nu**2, np.eye(2))
+        return np.asarray(np.linalg.det(D) / (math.sqrt(k) + 1j * nu * math.sqrt(mass)) ** 4)
 
     own = math.sqrt(k / mass)
     top = _TOP * max(own, c / mass, speed)
@@ -299,7 +299,7 @@ NEAR_ONE = 0.5
 _HALVINGS, _DOUBLINGS = 40, 40
 
 
-def growing_count(ratio: Callable[[float], complex], frequencies: Array, reference: int = 0) -> int:
+def growing_count(ratio: Callable[[Array], Complex], frequencies: Array, reference: int = 0) -> int:
     """Return how many roots s of a determinant D(s) of real motions have a positive real part.
 
     Let E(s) have the same degree and a known number of such roots. While s goes from 0 to i infinity, D/E
@@ -309,7 +309,7 @@ def growing_count(ratio: Callable[[float], complex], frequencies: Array, referen
     Parameters
     ----------
     ratio : callable
-        Ratio from a frequency nu [rad/s] to D(i nu)/E(i nu), real at 0, and 1 at infinity.
+        Ratio from frequencies nu (n,) [rad/s] to D(i nu)/E(i nu), real at 0, and 1 at infinity.
     frequencies : ndarray, shape (n,) [rad/s]
         Rising from 0, close enough that no whole turn falls between two of them; steps in which the phase
         turns far are halved. From the last they are doubled until D/E is near 1, so that the phase stays
@@ -322,41 +322,27 @@ def growing_count(ratio: Callable[[float], complex], frequencies: Array, referen
     ConvergenceError
         If the phase jumps: a root on the imaginary axis itself; if D/E does not come near 1.
     """
-    points = [(float(nu), ratio(float(nu))) for nu in frequencies]
-    while abs(points[-1][1] - 1.0) > NEAR_ONE and len(points) < len(frequencies) + _DOUBLINGS:
-        points.append((2.0 * points[-1][0], ratio(2.0 * points[-1][0])))
-    if not abs(points[-1][1] - 1.0) <= NEAR_ONE:
+    points, values = frequencies, ratio(frequencies)
+    while abs(values[-1] - 1.0) > NEAR_ONE and len(points) < len(frequencies) + _DOUBLINGS:
+        further = 2.0 * points[-1:]
+        points, values = np.append(points, further), np.append(values, ratio(further))
+    if not abs(values[-1] - 1.0) <= NEAR_ONE:
         raise ConvergenceError(
             "the inertia must outweigh the stiffness at high frequencies to count growing motions, but D/E "
-            "is "
-            f"{points[-1][1]:.3g} at {points[-1][0]:.3g} rad/s"
+            f"is {values[-1]:.3g} at {points[-1]:.3g} rad/s"
         )
-    turn = sum(_turn(ratio, low, high) for low, high in pairwise(points))
-    last = points[-1][1]
-    turn -= math.atan2(last.imag, last.real)
-    return reference - round(turn / math.pi)
-
-
-def _turn(
-    ratio: Callable[[float], complex], low: tuple[float, complex], high: tuple[float, complex]
-) -> float:
-    """Return the turn of the phase between two frequencies with their values [rad]."""
-    total, parts = 0.0, [(low, high, 0)]
-    while parts:
-        low, high, depth = parts.pop()
-        step = float(np.angle(high[1] / low[1])) if low[1] else math.inf
-        if abs(step) <= STEP:
-            total += step
-            continue
-        if depth == _HALVINGS:
-            raise ConvergenceError(
-                f"growing motions cannot be counted: the phase jumps at {high[0]:.8g} rad/s, where a motion "
-                "neither grows nor decays"
-            )
-        nu = 0.5 * (low[0] + high[0])
-        middle = (nu, ratio(nu))
-        parts += [(low, middle, depth + 1), (middle, high, depth + 1)]
-    return total
+    for _ in range(_HALVINGS + 1):
+        turns = np.angle(values[1:] * values[:-1].conj())
+        far = np.flatnonzero(~(np.abs(turns) <= STEP) | (values[:-1] == 0.0))
+        if not len(far):
+            return reference - round((turns.sum() - np.angle(values[-1])) / math.pi)
+        halves = 0.5 * (points[far] + points[far + 1])
+        at, values = points[far + 1], np.insert(values, far + 1, ratio(halves))
+        points = np.insert(points, far + 1, halves)
+    raise ConvergenceError(
+        f"growing motions cannot be counted: the phase jumps at {at[0]:.8g} rad/s, where a motion neither "
+        "grows nor decays"
+    )
 
 
 # The rigid masses at which a frequency-dependent film lets a whirl neither grow nor decay.

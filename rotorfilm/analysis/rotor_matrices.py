@@ -198,7 +198,19 @@ def motion_near(
     films = frequency_dependent_films(at)
     held = {name: film for name, film in at.coefficients.items() if name not in films}
     system = small_motion(structure, replace(at, coefficients=held), frequency)
-    return lambda s: _on_films(structure, system, {n: film.near(s) for n, film in films.items()})
+    rows = [
+        (freedom_rows(structure, n, freedoms_of(film)), film.dynamic_stiffness) for n, film in films.items()
+    ]
+
+    def near(s: complex) -> SecondOrder:
+        mass, damping, stiffness = system
+        for row, motion in rows:
+            K, slope = motion(s)
+            damping = damping + _at_journal(structure, row, slope)
+            stiffness = stiffness + _at_journal(structure, row, K - s * slope)
+        return SecondOrder(mass, damping, stiffness)
+
+    return near
 
 
 # One whirl of a rotor at a speed, by inverse iteration: dense, or banded in a rotor of many elements.

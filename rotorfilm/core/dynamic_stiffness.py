@@ -265,21 +265,17 @@ class StatesStiffness:
         n = len(C)
         by_place, by_rate = slice(n), slice(n, 2 * n)
         follow = s * np.eye(len(A)) - A
-        drive = B[:, by_place] + s * B[:, by_rate]
-        try:
-            moved = np.linalg.solve(follow, drive)
-        except np.linalg.LinAlgError:
-            raise InputError(
-                "s must not be an eigenvalue of the states of the bearing alone, such as 0 for a state that "
-                f"integrates, got {s!r}"
-            ) from None
+        moved = _following(follow, B[:, by_place] + s * B[:, by_rate], s)
         slope = np.linalg.solve(follow, B[:, by_rate] - moved)
         K, damping = D[:, by_place] + s * D[:, by_rate] + C @ moved, D[:, by_rate] + C @ slope
         return -K.astype(complex), -damping.astype(complex)
 
-    def stiffness(self, s: complex) -> Complex:
-        """Return K(s) [N/m] alone."""
-        return self(s)[0]
+    def stiffness(self, s: ArrayLike) -> Complex:
+        """Return K(s) [N/m] alone, shape (..., n, n)."""
+        A, B, C, D = self.at
+        n, each = len(C), np.asarray(s)[..., None, None]
+        moved = _following(each * np.eye(len(A)) - A, B[:, :n] + each * B[:, n : 2 * n], s)
+        return -(D[:, :n] + each * D[:, n : 2 * n] + C @ moved).astype(complex)
 
     def exponents(self, mass: ArrayLike) -> Complex:
         """Return all exponents of a rigid mass [kg], or (n, n), on it [1/s], the least damped first."""
@@ -290,6 +286,24 @@ class StatesStiffness:
         whole = np.vstack([np.eye(n, 2 * n + size, n), push, np.hstack([B[:, : 2 * n], A])])
         values = np.linalg.eigvals(whole).astype(complex)
         return values[np.argsort(-values.real)]
+
+
+def _following(follow: Complex, drive: Complex, s: ArrayLike) -> Complex:
+    """Return what the states do, by (s - A) and what drives them."""
+    try:
+        return np.asarray(np.linalg.solve(follow, drive))
+    except np.linalg.LinAlgError:
+        raise InputError(
+            "s must not be an eigenvalue of the states of the bearing alone, such as 0 for a state that "
+            f"integrates, got {s!r}"
+        ) from None
+
+
+def stiffnesses(motion: Any, s: Complex) -> Complex:
+    """Return K(s) [N/m] at many s (m,) [1/s], shape (m, n, n), at once where the states are known."""
+    if hasattr(motion, "at"):
+        return np.asarray(motion.stiffness(s))
+    return np.stack([motion.stiffness(complex(one)) for one in s])
 
 
 @dataclass(frozen=True)
@@ -316,9 +330,9 @@ class InertialStiffness:
         K, slope = self.motion(s)
         return K + s**2 * self.mass, slope + 2.0 * s * self.mass
 
-    def stiffness(self, s: complex) -> Complex:
-        """Return K(s) + s^2 mass [N/m] alone."""
-        return np.asarray(self.motion.stiffness(s) + s**2 * self.mass)
+    def stiffness(self, s: ArrayLike) -> Complex:
+        """Return K(s) + s^2 mass [N/m] alone, shape (..., n, n)."""
+        return np.asarray(self.motion.stiffness(s) + np.multiply.outer(np.square(s), self.mass))
 
 
 def has_own_stiffness(reaction: object) -> bool:

@@ -154,13 +154,13 @@ def test_without_memory_the_critical_mass_is_that_of_lund():
 )
 def test_roots_are_counted(roots):
     def ratio(nu):
-        return np.prod(1j * nu - np.array(roots)) / (1j * nu + 1.0) ** 4
+        return np.prod(1j * nu[:, None] - np.array(roots), axis=1) / (1j * nu + 1.0) ** 4
 
     assert growing_count(ratio, np.linspace(0.0, 40.0, 161)) == np.sum(np.real(roots) > 0.0)
     # counted against another polynomial whose roots are known
     other = np.array([1.0, -1.0, -3.0, -3.0])
     count = growing_count(
-        lambda nu: np.prod(1j * nu - np.array(roots)) / np.prod(1j * nu - other),
+        lambda nu: np.prod((1j * nu[:, None] - np.array(roots)) / (1j * nu[:, None] - other), axis=1),
         np.linspace(0.0, 40.0, 161),
         1,
     )
@@ -169,7 +169,7 @@ def test_roots_are_counted(roots):
 
 def test_a_root_that_neither_grows_nor_decays_is_not_counted():
     with pytest.raises(ConvergenceError, match="neither grows nor decays"):
-        growing_count(lambda nu: complex(9.0 - nu**2) / (1j * nu + 1.0) ** 2, np.linspace(0.0, 40.0, 100))
+        growing_count(lambda nu: (9.0 - nu**2) / (1j * nu + 1.0) ** 2, np.linspace(0.0, 40.0, 100))
 
 
 @pytest.mark.literature
