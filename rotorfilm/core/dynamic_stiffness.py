@@ -288,7 +288,7 @@ class StatesStiffness:
         return values[np.argsort(-values.real)]
 
 
-def _following(follow: Complex, drive: Complex, s: ArrayLike) -> Complex:
+def _following(follow: np.ndarray, drive: np.ndarray, s: ArrayLike) -> np.ndarray:
     """Return what the states do, by (s - A) and what drives them."""
     try:
         return np.asarray(np.linalg.solve(follow, drive))
@@ -299,7 +299,7 @@ def _following(follow: Complex, drive: Complex, s: ArrayLike) -> Complex:
         ) from None
 
 
-def stiffnesses(motion: Any, s: Complex) -> Complex:
+def stiffnesses(motion: Any, s: np.ndarray) -> Complex:
     """Return K(s) [N/m] at many s (m,) [1/s], shape (m, n, n), at once where the states are known."""
     if hasattr(motion, "at"):
         return np.asarray(motion.stiffness(s))
