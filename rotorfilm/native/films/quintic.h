@@ -65,26 +65,12 @@ static inline double rf_dot(const double a[RF_ORDER], const double b[RF_ORDER])
     return sum;
 }
 
-/* Sum of the six rows of coefficients from `c`, weighted by b. */
-static inline void rf_rows(const double *c, size_t stride, const double b[RF_ORDER], double sum[RF_ORDER])
+/* Sum of the six rows of coefficients from `c`, weighted by b; in this form compilers use vectors. */
+static inline void rf_rows(const double *c, size_t stride, const double b[RF_ORDER], double *restrict sum)
 {
-    double s0 = b[0] * c[0], s1 = b[0] * c[1], s2 = b[0] * c[2];
-    double s3 = b[0] * c[3], s4 = b[0] * c[4], s5 = b[0] * c[5];
-    for (int i = 1; i < RF_ORDER; ++i) {
-        const double *r = c + (size_t)i * stride, k = b[i];
-        s0 += k * r[0];
-        s1 += k * r[1];
-        s2 += k * r[2];
-        s3 += k * r[3];
-        s4 += k * r[4];
-        s5 += k * r[5];
-    }
-    sum[0] = s0;
-    sum[1] = s1;
-    sum[2] = s2;
-    sum[3] = s3;
-    sum[4] = s4;
-    sum[5] = s5;
+    const double *c1 = c + stride, *c2 = c1 + stride, *c3 = c2 + stride, *c4 = c3 + stride, *c5 = c4 + stride;
+    for (int j = 0; j < RF_ORDER; ++j)
+        sum[j] = b[0] * c[j] + b[1] * c1[j] + b[2] * c2[j] + b[3] * c3[j] + b[4] * c4[j] + b[5] * c5[j];
 }
 
 /* Cell of a point at `at` cells from the first node; the rest is its place in the cell. */

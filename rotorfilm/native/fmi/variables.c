@@ -16,7 +16,7 @@ static const rf_variable *find(rf_instance *c, unsigned reference, const char *f
 static rf_answer refresh(rf_instance *c, rf_role role)
 {
     rf_message why;
-    if (role != RF_OUTPUT && role != RF_DERIVATIVE && role != RF_SWITCH)
+    if ((role != RF_OUTPUT && role != RF_DERIVATIVE && role != RF_SWITCH) || c->known & 1u << role)
         return RF_FINE;
     return rf_judged(c, rf_evaluate(c, role, &why),
                   role == RF_OUTPUT       ? "outputs"
