@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from copy import copy
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -79,7 +80,7 @@ def _turned(still: Any, speed: float, turning: Any) -> Any:
     return still + speed * turning
 
 
-def _at_journal(structure: Structure, rows: Array, film: Array) -> Any:
+def _at_journal(structure: Structure, rows: Array, film: np.ndarray) -> Any:
     """Return what K, C or M of a film is in the coordinates of the rotor, sparse if its matrices are."""
     if not sparse.issparse(structure.mass):
         return rows.T @ film @ rows
@@ -197,20 +198,30 @@ def motion_near(
     """Return the equations of small motion about an equilibrium near an exponent, as a function of it."""
     films = frequency_dependent_films(at)
     held = {name: film for name, film in at.coefficients.items() if name not in films}
-    system = small_motion(structure, replace(at, coefficients=held), frequency)
-    rows = [
-        (freedom_rows(structure, n, freedoms_of(film)), film.dynamic_stiffness) for n, film in films.items()
-    ]
+    system, rows = (
+        small_motion(structure, replace(at, coefficients=held), frequency),
+        all_rows(structure, films),
+    )
+    motions = [film.dynamic_stiffness for film in films.values()]
 
     def near(s: complex) -> SecondOrder:
-        mass, damping, stiffness = system
-        for row, motion in rows:
-            K, slope = motion(s)
-            damping = damping + _at_journal(structure, row, slope)
-            stiffness = stiffness + _at_journal(structure, row, K - s * slope)
-        return SecondOrder(mass, damping, stiffness)
+        K, slope = (in_blocks(parts) for parts in zip(*(motion(s) for motion in motions), strict=True))
+        damping = system.damping + _at_journal(structure, rows, slope)
+        return SecondOrder(
+            system.mass, damping, system.stiffness + _at_journal(structure, rows, K - s * slope)
+        )
 
-    return near
+    return near if films else lambda s: system
+
+
+def in_blocks(parts: Sequence[np.ndarray]) -> np.ndarray:
+    """Return square matrices (..., n, n) one after the other on the diagonal of one (..., N, N)."""
+    ends = np.cumsum([0, *(part.shape[-1] for part in parts)])
+    ahead = np.broadcast_shapes(*(part.shape[:-2] for part in parts))
+    found = np.zeros((*ahead, ends[-1], ends[-1]), dtype=np.result_type(float, *parts))
+    for first, last, part in zip(ends, ends[1:], parts, strict=False):
+        found[..., first:last, first:last] = part
+    return found
 
 
 # One whirl of a rotor at a speed, by inverse iteration: dense, or banded in a rotor of many elements.
@@ -392,34 +403,37 @@ FASTER = 1.0 / (1.0 - MARGIN**-2.0)
 
 
 class FullRotorModel:
-    """The equations of small motion of all of a rotor: sparse matrices of the shaft, and its films apart."""
+    """The equations of small motion of all of a rotor: sparse matrices of the shaft, and its films apart.
+
+    The films have one K, C and added mass, shape (k, k), or those of each of m motions, shape (m, k, k).
+    """
 
     def __init__(self, structure: Structure, at: RotorEquilibrium, frequency: float) -> None:
+        self.at, films = at, list(at.coefficients.values())
         self.shaft = small_motion(structure, replace(at, coefficients={}), frequency)
-        films = at.coefficients
-        self.rows = all_rows(structure, films)
-        none, found = np.zeros((0, 0)), films.values()
-        self.films = [
-            block_diag(none, *(film.stiffness for film in found)),
-            block_diag(none, *(film.damping for film in found)),
-            block_diag(none, *map(added_mass, found)),
-        ]
+        self.rows = all_rows(structure, at.coefficients)
+        self.films = _in_kinds(films)
+
+    def near(self, values: Iterable[complex]) -> FullRotorModel:
+        """Return the same with K(s) and its slope of frequency-dependent films at one s for each motion."""
+        found, films = copy(self), [list(rest_near(self.at, s).coefficients.values()) for s in values]
+        found.films = [np.stack(parts) for parts in zip(*map(_in_kinds, films), strict=True)]
+        return found
 
     def forces(self, values: Any, motion: np.ndarray) -> np.ndarray:
         """Return L(s) x, shape (N, m), of motions x at one s [1/s] or one for each."""
         m, c, k = self.shaft
         seen = self.rows @ motion
-        film = (
-            (self.films[0] + 0.0j) @ seen + self.films[1] @ seen * values + self.films[2] @ seen * values**2
-        )
+        stiff, damped, heavy = (_each(film + 0.0j, seen) for film in self.films)
+        film = stiff + damped * values + heavy * values**2
         return np.asarray((m @ motion) * values**2 + (c @ motion) * values + k @ motion + self.rows.T @ film)
 
     def adjoint_forces(self, values: Any, motion: np.ndarray) -> np.ndarray:
         """Return L(s)* y, shape (N, m)."""
         m, c, k = self.shaft
         back, seen = np.conj(values), self.rows @ motion
-        film = self.films[0].conj().T @ seen + self.films[1].conj().T @ seen * back
-        film = film + self.films[2].T @ seen * back**2
+        stiff, damped, heavy = (_each(film.conj().swapaxes(-1, -2), seen) for film in self.films)
+        film = stiff + damped * back + heavy * back**2
         shaft = (m.T @ motion) * back**2 + (c.T @ motion) * back + k.conj().T @ motion
         return np.asarray(shaft + self.rows.T @ film)
 
@@ -432,8 +446,19 @@ class FullRotorModel:
     def slope(self, values: Any, motion: np.ndarray) -> np.ndarray:
         """Return L'(s) x, shape (N, m)."""
         seen = self.rows @ motion
-        film = self.rows.T @ (self.films[1] @ seen + self.films[2] @ seen * (2.0 * values))
+        film = self.rows.T @ (_each(self.films[1], seen) + _each(self.films[2], seen) * (2.0 * values))
         return np.asarray((self.shaft.mass @ motion) * (2.0 * values) + self.shaft.damping @ motion + film)
+
+
+def _in_kinds(films: Sequence[Coefficients]) -> list[np.ndarray]:
+    """Return K, C and added mass of all films, each in one matrix."""
+    kinds = [film.stiffness for film in films], [film.damping for film in films], list(map(added_mass, films))
+    return [in_blocks(parts) for parts in kinds]
+
+
+def _each(films: np.ndarray, seen: np.ndarray) -> np.ndarray:
+    """Return one matrix (k, k), or one for each column, times columns (k, m)."""
+    return films @ seen if films.ndim == 2 else (films @ seen.T[:, :, None])[..., 0].T
 
 
 def whirl_errors(

@@ -39,7 +39,6 @@ from .rotor_matrices import (
     holding,
     joined_whirls,
     oscillates,
-    rest_near,
     roundoff,
     small_motion,
     whirl_errors,
@@ -384,6 +383,7 @@ def _frequency_dependent_part(
     reactions, is next to none of these, but known where the states are.
     """
     found: list[tuple[complex, np.ndarray, float]] = []
+    ends: list[np.ndarray] = []
     (known_to, reach), error, (starts, shapes, rounded), (frequency, low, high) = bounds, 0.0, next_to, band
     told = [hasattr(film.dynamic_stiffness, "at") for film in frequency_dependent_films(at).values()]
     known = all(told)
@@ -409,10 +409,13 @@ def _frequency_dependent_part(
             continue
         s, *vectors = one
         found.append((s, vectors[0], float(rounding)))
-        if model.space is not None and oscillates(np.array(s)) and abs(s) <= known_to:
-            whole = FullRotorModel(model.whole, rest_near(at, s), frequency)
-            ends = (model.lifted(vector[:, None]) for vector in vectors)
-            error = max(error, float(whirl_errors(model, whole, np.array([s]), *ends)[0]))
+        ends.append(vectors[1])
+    asked = [k for k, (s, *_) in enumerate(found) if oscillates(np.array(s)) and abs(s) <= known_to]
+    if model.space is not None and asked:
+        known_values = np.array([found[k][0] for k in asked])
+        both = (np.stack([rows[k] for k in asked], 1) for rows in ([one for _, one, _ in found], ends))
+        whole = FullRotorModel(model.whole, at, frequency).near(known_values)
+        error = float(whirl_errors(model, whole, known_values, *map(model.lifted, both)).max())
     found.sort(key=lambda motion: motion[0].imag)
     values = np.array([value for value, *_ in found], dtype=complex)
     right = np.array([vector for _, vector, _ in found], dtype=complex).reshape(-1, len(shapes))

@@ -649,6 +649,19 @@ class ConservedFilm:
         found = solve_oil(equations, *self.held, guess, by_newton=by_newton)
         return ConservedState(gap, rate, equations, found, 0.0 if storage is None else storage[0])
 
+    def steady(self, place: Array, rate: float) -> ConservedState:
+        """Return the steady film around a journal at a place, as in `gap`.
+
+        The last ones are kept: a search asks for force, slopes and K(s) of one place in turn.
+        """
+        known, key = _recent(self), (rate, *place.tolist())
+        found = known.get(key)
+        if found is None:
+            if len(known) >= RECENT:
+                known.clear()
+            found = known[key] = self.solve(self.gap(place), rate)
+        return found
+
     def equations(
         self, gap: Gap, rate: float, storage: Storage | None = None, *, by_rate: bool = False
     ) -> OilCells:
@@ -777,6 +790,16 @@ def shape_of(film: ConservedFilm) -> Any:
         *(first, supply.end_pressure, film.slenderness, cells.whole, cells.wall, cells.depth, thick),
         none if eased is None else eased.struct(per_rate(eased, film.reynolds_scale)),
     )
+
+
+RECENT = 16
+"""Steady states of a film that are kept, at most."""
+
+
+@once_for_each
+def _recent(film: ConservedFilm) -> dict[tuple[float, ...], ConservedState]:
+    """Return the last steady states of a film, by rate and place."""
+    return {}
 
 
 # What flows into a film that conserves its oil, and out of it.

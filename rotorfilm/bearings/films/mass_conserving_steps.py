@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from collections.abc import Callable
-from ctypes import byref, c_int64
+from ctypes import byref, c_double, c_int64
 from dataclasses import dataclass, replace
 from functools import cached_property
 from numbers import Number
@@ -89,9 +89,9 @@ class FilmInMotion:
         ----------
         s : complex [1/s]
         """
-        rate, by_s = self._wave(s)
         if self._cavity is not None:
-            return self._waved(self._cavity, s, rate, by_s)
+            return self._waved(self._cavity, s)
+        rate, by_s = self._wave(s)
         moved, held = self._slopes
         found = self._found(rate, moved + s * held, by_s, held)
         return found[:, : len(moved)], found[:, len(moved) :]
@@ -107,9 +107,9 @@ class FilmInMotion:
             By default they keep their phase: the storage of the cavity has (exp(2 s dxi/speed) - 1)
             speed/(2 dxi) in place of s, where the cells resolve the wave.
         """
-        rate, by_s = (complex(s), 1.0) if as_stepped else self._wave(s)
         if self._cavity is not None:
-            return self._waved(self._cavity, s, rate, by_s)[0]
+            return self._waved(self._cavity, s, as_stepped)[0]
+        rate = complex(s) if as_stepped else self._wave(s)[0]
         moved, held = self._slopes
         return self._found(rate, moved + s * held)
 
@@ -118,10 +118,16 @@ class FilmInMotion:
 
         They belong to motions slow against the time that oil takes to cross the cavity.
         """
-        (moved, held), count = self._slopes, len(self._slopes[0])
-        dragged = self._by_speed[None]
-        found = self._found(0.0, np.concatenate([moved, dragged]), 1.0, np.concatenate([held, 0.0 * dragged]))
-        return found[:, :count], found[:, count + 1 : -1], -found[:, count] / self.scale
+        state, n, weights = self.state, self.film.freedoms, contiguous(self._weights)
+        found, rows = np.empty((len(weights), 2 * n + 2)), state.solution
+        given = byref(self.film.shape), byref(state.gap.struct), byref(state.equations.struct), state.rate
+        fields = address(rows.full), address(rows.pressure), address(rows.theta)
+        places = n, len(found), address(weights), address(found)
+        report_search(loops()["rf_oil_slow"](*given, *fields, *places))
+        K, by_speed, C = found[:, :n], found[:, n], found[:, n + 1 : -1]
+        if self.axes is not None:
+            K, by_speed, C = self.axes @ K @ self.axes.T, self.axes @ by_speed, self.axes @ C @ self.axes.T
+        return self.scale * K, self.scale * C, -by_speed
 
     def of_step(self) -> Array:
         """Return K of the step in time that ended here, the oil of the last step given."""
@@ -143,22 +149,19 @@ class FilmInMotion:
         return -self._force(oil_response(self.state.equations, solution.full, keeps, right))
 
     @cached_property
-    def _cavity(self) -> Cavity | None:
+    def _cavity(self) -> Any:
         """What a film and its cavity do to each other at every s; None where openings get a given flow."""
         if self.film.supply.fed.any():
             return None
-        return cavity_of(self.state, self.state.gap.line * self.film.cells.area, self._slopes, self._force)
+        waves = self._turns, self._carrying, self.state.gap.line * self.film.cells.area
+        return cavity_of(self.state, waves, self._slopes, self._force)
 
-    def _waved(self, cavity: Cavity, s: complex, rate: Any, by_s: Any) -> tuple[Complex, Complex]:
-        """Return K(s) and dK/ds where the cavity stores at a rate, from what its waves do where it ends."""
-        n, m = len(self._slopes[0]), len(cavity.inlet)
-        lines = np.ones((len(self._turns), 1))
-        first, second = waves(cavity, *(one * lines for one in (rate, by_s)))
-        answer, felt = np.linalg.inv(np.eye(m) - first[:, :m]), cavity.felt
-        moved = answer @ (first[:, m : m + n] + s * first[:, m + n :])
-        late = first[:, m + n :] - second[:, m : m + n] - s * second[:, m + n :] - second[:, :m] @ moved
-        K = felt[:, m : m + n] + s * felt[:, m + n :] + felt[:, :m] @ moved
-        return self.scale * K, self.scale * (felt[:, m + n :] + felt[:, :m] @ (answer @ late))
+    def _waved(self, cavity: Any, s: complex, blurred: bool = False) -> tuple[Complex, Complex]:
+        """Return K(s) and dK/ds from what the waves of the cavity do where it ends."""
+        found = np.empty((2, cavity.forces, cavity.freedoms), dtype=complex)
+        exponent = (c_double * 2)(s.real, s.imag)
+        report_search(loops()["rf_oil_motion"](byref(cavity), exponent, blurred, address(found)))
+        return self.scale * found[0], self.scale * found[1]
 
     def force(self) -> Array:
         """Return the force of the film, of one part after the other, shape (rows,)."""
@@ -255,52 +258,20 @@ class FilmInMotion:
         return widening
 
 
-class Cavity(NamedTuple):
-    """A film and its cavity in small motion: only the waves in the cavity depend on the exponent.
-
-    Columns are the changes of theta where the cavity ends ("inlets" of the film), then the places of the
-    journal and then their rates, one for each freedom.
-
-    Attributes
-    ----------
-    cells : ndarray of int, shape (m,)
-        The cells of the cavity, in the order of the flow.
-    lines : ndarray of int, shape (m,)
-        Their lines.
-    room : ndarray of complex, shape (m,)
-        The size of their gap times their own.
-    up, inlet : ndarray of int32
-        Which of them is upstream of each, -1 for none, and which are upstream of the inlets.
-    own, flow : ndarray, shape (m,)
-        What a change of theta carries out of a cell, and into it from the one upstream.
-    source : ndarray, shape (m, columns)
-        What leaves each of them less by the pressure that answers, and by the gap.
-    felt : ndarray, shape (freedoms, columns)
-        The force of that pressure.
-    """
-
-    cells: np.ndarray
-    lines: np.ndarray
-    room: Complex
-    up: np.ndarray
-    inlet: np.ndarray
-    own: Array
-    flow: Array
-    source: Array
-    felt: Array
-
-
 def cavity_of(
-    state: ConservedState, room: Array, slopes: tuple[Array, Array], force: Callable[[Array], Array]
-) -> Cavity | None:
-    """Return what a film and its cavity do to each other; None where a cavity goes all around.
+    state: ConservedState,
+    waves: tuple[Any, Any, Array],
+    slopes: tuple[Array, Array],
+    force: Callable[[Array], Array],
+) -> Any:
+    """Return a film and its cavity as `native/conserved/oil_waves.h` has them; None where it goes all around.
 
     Parameters
     ----------
     state : ConservedState
         Steady film without openings that get a given flow.
-    room : ndarray, shape (N, M)
-        Gap times size of the cells.
+    waves : tuple of array_like, shapes that broadcast to (N, M)
+        Twice the angle over which cells extend, twice the speed of their oil, and gap times size.
     slopes : tuple of ndarray, shape (freedoms, N, M)
         d outflow of the cells / d place, and / d rate.
     force : callable
@@ -338,32 +309,14 @@ def cavity_of(
     )
     arriving += e.along[:, :-1] * beside[:, :, :-2] + e.along[:, 1:] * beside[:, :, 2:]
     source = arriving.reshape(columns, -1)[:, cells].T + np.where(empty.ravel(), right, 0.0)[:, cells].T
-    return Cavity(
-        cells,
-        cells // along,
-        room.ravel()[cells].astype(complex),
-        rank[upstream.ravel()[cells]].astype(np.int32),
-        rank[upstream.ravel()[inlets]].astype(np.int32),
-        (out + e.store).ravel()[cells],
-        into.ravel()[cells],
-        np.ascontiguousarray(source),
-        force(change),
+    felt = force(change)
+    turn, carrying, room = (np.broadcast_to(one, (lines, along)).ravel()[cells] for one in waves)
+    return in_c(
+        "rf_oil_cavity",
+        *(len(cells), len(inlets), len(slopes[0]), len(felt)),
+        *(rank[upstream.ravel()[one]].astype(np.int32) for one in (cells, inlets)),
+        *((out + e.store).ravel()[cells], into.ravel()[cells], room, turn, carrying, source, felt),
     )
-
-
-def waves(cavity: Cavity, rate: Complex, by: Complex) -> tuple[Complex, Complex]:
-    """Return what the columns of a cavity change where it ends, and what `by` times the changes do there.
-
-    The cells store at a rate; rate and `by` are of each line, shape (N, 1), or of each cell.
-    """
-    found = np.empty((2, len(cavity.inlet), cavity.source.shape[1]), dtype=complex)
-    storage, also = (
-        cavity.room * np.ravel(one)[cavity.lines if one.shape[1] == 1 else cavity.cells] for one in (rate, by)
-    )
-    places = map(address, (cavity.up, cavity.own, cavity.flow, cavity.source, storage, also))
-    ends = len(cavity.inlet), address(cavity.inlet), address(found)
-    report_search(loops()["rf_oil_waves"](len(cavity.cells), cavity.source.shape[1], *places, *ends))
-    return found[0], found[1]
 
 
 # What a film that conserves its oil has in SI units, whatever carries it.

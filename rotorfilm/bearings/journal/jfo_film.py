@@ -314,7 +314,7 @@ class JFOFilm(MassConserving, SelfHeatedFilm):
         film, place, pads = self.film, position / self.clearance, self.scaled.pads
         if pads is not None:
             film, place = pads.film.tilted(pads.eccentricity(position, speed)), np.zeros(2)
-        return film.solve(film.gap(place), 0.5 * speed), AT_REST, 0.0
+        return film.steady(place, 0.5 * speed), AT_REST, 0.0
 
     def at_temperature(self, temperature: float) -> JFOFilm:
         """Return this film at one temperature [K]; raises InputError if its bearing has no oil."""
@@ -476,7 +476,7 @@ class MomentCarryingJFOFilm(TiltedJournal, ConservedAtRest):
         require_at_rest(velocity)
         self.require_film(position)
         film, scales = self.scaled.film, self._scales
-        return film.solve(film.gap(scales @ position), 0.5 * speed), self.clearance * scales.T, 0.0
+        return film.steady(scales @ position, 0.5 * speed), self.clearance * scales.T, 0.0
 
     def dynamic_stiffness(self, position: ArrayLike, speed: float) -> FilmInMotion:
         """Return K(s) and dK/ds about a journal at rest, (4, 4), as a function of s; see `core.port`."""

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rotorfilm import Groove, JFOFilm, JournalBearing
-from rotorfilm.bearings.films import mass_conserving_steps
+from rotorfilm.bearings.films import mass_conserving, mass_conserving_steps
 from rotorfilm.bearings.films.mass_conserving_steps import FilmInMotion
 from rotorfilm.bearings.journal import MomentCarryingJFOFilm
 
@@ -36,7 +36,7 @@ def films():
 def test_waves_beside_one_factorization_are_the_solution_of_all_cells(film, speed):
     place = np.array([3e-5, -5e-5, 1e-4, -1e-4])[: 4 if isinstance(film, MomentCarryingJFOFilm) else 2]
     motion = film.dynamic_stiffness(place, speed)
-    assert motion._cavity.cells.size > 20
+    assert motion._cavity.cells > 20
     direct = Direct(motion.film, motion.state, motion.scale, motion.axes)
     for s in EXPONENTS:
         (K, slope), (expected, by_s) = motion(s), direct(s)
@@ -69,3 +69,32 @@ def test_a_film_with_a_given_flow_takes_all_cells():
     step = 1e-3
     change = (motion(90j + step)[0] - motion(90j - step)[0]) / (2.0 * step)
     np.testing.assert_allclose(motion(90j)[1], change, rtol=1e-6)
+
+
+def test_force_slopes_and_stiffness_at_a_place_take_one_search(monkeypatch):
+    searched = []
+
+    def counted(*given, **options):
+        searched.append(given)
+        return solve_oil(*given, **options)
+
+    solve_oil = mass_conserving.solve_oil
+    monkeypatch.setattr(mass_conserving, "solve_oil", counted)
+    film, speed = next(films())
+    place, still = np.array([3e-5, -5e-5]), np.zeros(2)
+    for _ in range(2):
+        film.force(place, still, speed)
+        film.jacobian(place, still, speed)
+        film.dynamic_stiffness(place, speed)(90j)
+    assert len(searched) == 1
+    film.force(place, still, -speed)
+    film.force(1.001 * place, still, speed)
+    assert len(searched) == 3
+
+
+def test_a_place_left_and_found_again_has_the_same_force():
+    film, speed = next(films())
+    force = film.force(np.array([3e-5, -5e-5]), np.zeros(2), speed)
+    for share in np.linspace(0.5, 0.9, 2 * mass_conserving.RECENT):
+        film.force(share * np.array([3e-5, -5e-5]), np.zeros(2), speed)
+    np.testing.assert_array_equal(film.force(np.array([3e-5, -5e-5]), np.zeros(2), speed), force)
