@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.errors import (
+    PLAIN,
     InputError,
     brief,
     require_each,
@@ -56,6 +58,26 @@ def broadcast_state(
             f"got shapes {q.shape}, {v.shape} and {omega.shape}"
         ) from None
     return np.stack(parts[:size]), np.stack(parts[size:]), omega
+
+
+def single_state(position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> tuple[float, ...] | None:
+    """Return (x, y, vx, vy, speed) of one finite state; None where `broadcast_state` must judge."""
+    if type(position) is np.ndarray and position.shape == (2,):
+        position = position.tolist()
+    if type(velocity) is np.ndarray and velocity.shape == (2,):
+        velocity = velocity.tolist()
+    if not (isinstance(position, list | tuple) and isinstance(velocity, list | tuple)):
+        return None
+    if not len(position) == len(velocity) == 2:
+        return None
+    state = (*position, *velocity, speed)
+    if not PLAIN.issuperset(map(type, state)):
+        return None
+    try:
+        numbers = tuple(map(float, state))
+    except OverflowError:
+        return None
+    return numbers if math.isfinite(sum(numbers)) else None
 
 
 def without_overflow(
@@ -223,6 +245,9 @@ class FilmReaction(StaticReaction):
 
     def force(self: Any, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:  # type: ignore[override]
         """Return the force on the journal, shape (2, ...) [N]; see `StaticReaction.force`."""
+        state = single_state(position, velocity, speed)
+        if state is not None:
+            return np.array(self.bound_film.call(*state))
         force: Array = self.bound_film.force(*broadcast_state(position, velocity, speed))
         return force
 

@@ -98,3 +98,19 @@ def test_springs_take_the_arguments_of_every_reaction():
     with pytest.raises(InputError, match="must broadcast"):
         spring.force(np.zeros((2, 2)), np.zeros((2, 3)), 1.0)
     assert spring.force([1e-5, 0.0], [0.0, 0.0], np.ones(4)).shape == (2, 4)
+
+
+@pytest.mark.parametrize("kind", [list, tuple, np.array, lambda pair: np.array(pair, dtype=object)])
+def test_a_single_state_has_the_force_of_a_batch_whatever_holds_it(kind):
+    bearing = rf.JournalBearing(**FILM)
+    batch = bearing.force([[1e-5], [-2e-5]], [[1.0], [0.0]], [300.0])
+    assert np.array_equal(bearing.force(kind([1e-5, -2e-5]), kind([1, 0]), 300), batch[:, 0])
+
+
+@pytest.mark.parametrize("bad", [True, np.nan, np.inf, 10**400, 1j, None])
+@pytest.mark.parametrize("place", range(5))
+def test_a_single_state_of_other_things_than_finite_numbers_is_refused(bad, place):
+    state = [1e-5, 2e-5, 0.0, 0.0, 300.0]
+    state[place] = bad
+    with pytest.raises(InputError):
+        rf.JournalBearing(**FILM).force(state[:2], state[2:4], state[4])
