@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from ctypes import addressof, byref, c_int64
 from dataclasses import replace
 from functools import cached_property
@@ -335,8 +335,10 @@ class Frame(NamedTuple):
     ----------
     A : ndarray, shape (n, n)
     B : ndarray, shape (n, 2 n_films)
-    inverse : ndarray, shape (n, n)
-        Of newest - dt A.
+    solve : callable
+        Solves with newest - dt A.
+    inverse : ndarray, shape (n, n), or None
+        Its inverse; None where that at a speed nearby solves, refined.
     gain : ndarray, shape (n, 2 n_films)
         Inverse dt B.
     sense : ndarray, shape (5 n_films, n)
@@ -350,13 +352,44 @@ class Frame(NamedTuple):
 
     A: Array
     B: Array
-    inverse: Array
+    solve: Callable[[Array], Array]
+    inverse: Array | None
     gain: Array
     sense: Array
     dt: float
     last: float
     older: float
     growth: float
+
+
+CONTRACTION, REFINED, ROUNDED = 0.1, 1e-13, 1e-9
+"""Of refinements of a solution, the largest part of the last one that is left, the relative size of the last,
+and that at which roundoff ends it."""
+
+
+def refined(matrix: Array, near: Array, right: Array, scale: Array) -> Array | None:
+    """Return the solution of matrix x = right by the inverse of a matrix nearby; None where that is too far.
+
+    Each round takes the residual through that inverse, so that its error contracts.
+
+    Parameters
+    ----------
+    matrix, near : ndarray, shape (n, n)
+    right : ndarray, shape (n, ...)
+    scale : ndarray, shape (n,)
+        Typical sizes of the unknowns.
+    """
+    x, last = near @ right, math.inf
+    while True:
+        change = near @ (right - matrix @ x)
+        x = x + change
+        moved, whole = (np.abs(one.T / scale).max(axis=-1) for one in (change, x))
+        share = float(np.max(moved / np.where(whole > 0.0, whole, 1.0)))
+        if share <= REFINED:
+            return np.asarray(x)
+        if not share <= CONTRACTION * last:
+            return np.asarray(x) if share <= ROUNDED else None
+        last = min(share, 1.0)
 
 
 class _Drive(NamedTuple):
@@ -389,12 +422,12 @@ class SteppedLoop:
     Attributes
     ----------
     work : Counter
-        Work so far: steps, newton_steps, film_solutions, restarts.
+        Work so far: steps, newton_steps, film_solutions, restarts, inverses of matrices of the rotor.
     """
 
     def __init__(self, rotor: Dynamic, stations: tuple[FilmStation, ...]) -> None:
         self.rotor, self.stations = rotor, stations
-        self.work: Counter[str] = Counter(steps=0, newton_steps=0, film_solutions=0, restarts=0)
+        self.work: Counter[str] = Counter(steps=0, newton_steps=0, film_solutions=0, restarts=0, inverses=0)
         self.clearances = np.array([float(s.film.clearance) for s in stations])
         nominal = {rotor.outputs[k].name: s.film.clearance for s in stations for k in s.motion[:2]}
         self._scale = np.array([nominal.get(s.name, s.nominal) for s in rotor.states])
@@ -404,6 +437,7 @@ class SteppedLoop:
         self._motion = [k for s in stations for k in s.motion]
         self._force = [k for s in stations for k in s.force]
         self._frames: dict[tuple[float, ...], Frame] = {}
+        self._inverses: dict[tuple[float, ...], Array] = {}
         found = [getattr(s.film, "compiled_steps", None) for s in stations]
         self._compiled = None if None in found else found
 
@@ -442,7 +476,7 @@ class SteppedLoop:
         states = np.array([now.state if before is None else before.state, now.state])
         start = now.state + (key[2] * (states[1] - states[0]) if key[2] else lengths[0] * now.rate)
         for _ in range(MOST_ROUNDS):
-            frame = self._frame(key, times[0], start)
+            frame = self._frame(key, times[0], start, once=len(lengths) == 1)
             drive = self._drive(frame, times, np.array(lengths), start)
             found, answers, films, failure = self._meet(frame, drive, states, now.films)
             if self._linear or failure is not None:
@@ -490,19 +524,42 @@ class SteppedLoop:
         """The outputs of a linear rotor per state."""
         return np.asarray(self.rotor.linearization(0.0, self.rotor.initial_state, self._none).C)
 
-    def _frame(self, key: tuple[float, ...], t: float, x: Array) -> Frame:
-        """Return what steps of this key have in common, about a state."""
+    def _frame(self, key: tuple[float, ...], t: float, x: Array, *, once: bool) -> Frame:
+        """Return what steps of this key, or `once` one of them, have in common, about a state."""
         frame = self._frames.get(key)
-        if frame is None or not self._linear:
+        if frame is None or not self._linear or not (once or frame.inverse is not None):
             newest, last, older = bdf2(key[2]) if key[2] else (1.0, -1.0, 0.0)
             A, B, C, _ = self.rotor.linearization(t, x, self._none)
             A, B = np.asarray(A), np.asarray(B)[:, self._force]
-            matrix = (newest * np.eye(len(A)) - key[1] * A) * self._scale / self._scale[:, None]
-            inverse = self._scale[:, None] * np.linalg.inv(matrix) / self._scale
-            gain, sense = inverse @ (key[1] * B), np.ascontiguousarray(C[self._motion])
-            frame = Frame(A, B, inverse, gain, sense, key[1], last, older, key[2])
+            matrix = -key[1] * A
+            np.einsum("ii->i", matrix)[:] += newest
+            solved = self._solved(matrix, key[1:], key[1] * B, once)
+            sense = np.ascontiguousarray(C[self._motion])
+            frame = Frame(A, B, *solved, sense, key[1], last, older, key[2])
             self._frames = {**dict(list(self._frames.items())[-FRAMES:]), key: frame}
         return frame
+
+    def _solved(
+        self, matrix: Array, kind: tuple[float, ...], right: Array, once: bool
+    ) -> tuple[Callable[[Array], Array], Array | None, Array]:
+        """Return what solves with a matrix of a step, its inverse if that was needed, and a solution.
+
+        In a run-up each step has a matrix of its own, near that of another step of its kind.
+        """
+        near = self._inverses.get(kind) if once else None
+        gain = None if near is None else refined(matrix, near, right, self._scale)
+        if near is None or gain is None:
+            inverse = np.linalg.inv(matrix * self._scale / self._scale[:, None])
+            inverse = self._scale[:, None] * inverse / self._scale
+            self._inverses = {**dict(list(self._inverses.items())[-FRAMES:]), kind: inverse}
+            self.work["inverses"] += 1
+            return inverse.__matmul__, inverse, inverse @ right
+
+        def solve(load: Array) -> Array:
+            found = refined(matrix, near, load, self._scale)
+            return np.asarray(np.linalg.solve(matrix, load), dtype=float) if found is None else found
+
+        return solve, None, gain
 
     def _drive(self, frame: Frame, times: Array, lengths: Array, x: Array) -> _Drive:
         """Return what steps have each for themselves; of a rotor that is not linear about a state."""
@@ -536,8 +593,12 @@ class SteppedLoop:
         springs = np.array([one.springs for one in compiled])
         parts = addresses, springs, frame.inverse, frame.gain, frame.sense, self._scale
         numbers = frame.last, frame.older, frame.growth
-        rotor = structure("rf_oil_rotor")(size, len(films), *(one.ctypes.data for one in parts), *numbers)
+        rotor = structure("rf_oil_rotor")(
+            size, len(films), *(None if one is None else one.ctypes.data for one in parts), *numbers
+        )
         pushed = frame.dt * drive.pushed
+        if frame.inverse is None:
+            pushed = frame.solve(pushed[0] - frame.last * states[1] - frame.older * states[0])
         rows = drive.lengths, drive.time, pushed, drive.offset, drive.start, found, blocks, answers
         places = (row.ctypes.data for row in rows)
         status = loops()["rf_oil_march"](byref(rotor), count, *places, done, byref(why))
@@ -556,7 +617,7 @@ class SteppedLoop:
         """Return state and films at the end of the first step, as `oil_rotor.c` finds them."""
         t, dt, offset = float(drive.time[0]), float(drive.lengths[0]), drive.offset[0]
         pushed = frame.dt * drive.pushed[0]
-        free = frame.inverse @ (pushed - frame.last * states[1] - frame.older * states[0])
+        free = frame.solve(pushed - frame.last * states[1] - frame.older * states[0])
         places = frame.sense.reshape(len(films), 5, -1)[:, :2].reshape(2 * len(films), -1)
         x, near, compliance = self._within(frame, drive, states[1], drive.start), films, places @ frame.gain
         for _ in range(MOST_ROUNDS):

@@ -206,7 +206,10 @@ static void prepare(meeting *self, const double *drive, const double *start, con
         self->moved[k] = start ? start[k] : now[k] + rotor->growth * (now[k] - before[k]) + bent + turned;
     }
     memset(self->free, 0, n * sizeof *self->free);
-    rf_add_product(n, n, 1.0, rotor->inverse, self->x, self->free);
+    if (rotor->inverse)
+        rf_add_product(n, n, 1.0, rotor->inverse, self->x, self->free);
+    else
+        memcpy(self->free, drive, n * sizeof *self->free);
     memcpy(self->x, now, n * sizeof *now);
 }
 

@@ -11,7 +11,7 @@ typedef struct rf_oil_rotor {
     size_t states, films;
     const rf_oil_film_si *const *film;
     const double *springs; /* beside each film [N/m] */
-    const double *inverse; /* states x states */
+    const double *inverse; /* states x states, or NULL: `drive` of a step is then where no film would push the rotor */
     const double *gain;    /* states x 2 films: inverse dt B */
     const double *sense;   /* 5 films x states: the motion of each journal */
     const double *scale;   /* of the states: what a Newton step is measured by */
