@@ -32,6 +32,9 @@ SENSES = {"forward": "^", "backward": "v", "mixed": "o"}
 DAMPING = ColorScale("log decrement", "RdYlGn", -0.2, 0.2)
 """Of a Campbell diagram: red is unstable, green well damped."""
 
+FAR = 10.0
+"""Highest frequency of a Campbell diagram over that of its highest speed beyond which only a part is shown."""
+
 DECREMENTS = (-1.0, 3.0)
 """Log decrements that decide: beyond, a mode is unstable or overdamped in any case."""
 
@@ -47,13 +50,14 @@ def plot_campbell(
 ) -> Picture:
     """Describe whirl frequency [Hz] over speed [rpm], with damping as color and the line of the speed.
 
-    A wide ring is whirl that grows by more than round-off.
+    A wide ring is whirl that grows by more than round-off. Where modes reach beyond ten times the speed, only
+    those up to twice the speed are shown.
 
     Parameters
     ----------
     chart : Campbell
     critical : sequence of CriticalSpeed, optional
-        Marked, with their speeds at forward ones; those interpolated in the chart by default.
+        Marked, with their speeds and whirls; those interpolated in the chart by default.
     """
     speeds, hertz, sense = chart.speeds / RPM, chart.frequency / HERTZ, senses(chart.direction)
     places = np.broadcast_to(speeds, hertz.shape)
@@ -74,16 +78,17 @@ def plot_campbell(
     if found:
         at = np.array([one.speed for one in found])
         marks.append(_points(at / RPM, np.abs(at) / HERTZ, "critical speed", "s", size=8.0))
-        forward = [one.speed for one in found if one.whirl == "forward"]
-        marks += [NoteMark(w / RPM, abs(w) / HERTZ, f"{w / RPM:.0f} rpm", clear=True) for w in forward]
-    limits = (float(speeds.min()), float(speeds.max()))
+        for one, w in zip(found, at, strict=True):
+            whirl = "" if one.whirl == "forward" else f", {one.whirl}"
+            marks.append(NoteMark(w / RPM, abs(w) / HERTZ, f"{w / RPM:.0f} rpm{whirl}", clear=True))
+    limits, top = (float(speeds.min()), float(speeds.max())), float(np.abs(chart.speeds).max()) / HERTZ
     panel = PicturePanel(
         marks,
         "speed [rpm]",
         "damped frequency [Hz]",
         "Campbell diagram",
         x_limits=limits,
-        y_limits=(0.0, None),
+        y_limits=(0.0, 2.0 * top if np.nanmax(hertz) > FAR * top > 0.0 else None),
         legend="inside",
     )
     return Picture((panel,), size=(7.4, 5.2))

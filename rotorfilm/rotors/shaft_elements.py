@@ -595,10 +595,10 @@ class TiltSpring:
     node : int
         Index of the node, from 0 at the first end of the shaft.
     stiffness : float [N m/rad] or 2 x 2 numbers
-        Moment against tilt_x (rotation of the shaft in the x-z plane) and tilt_y; one number is the same in
-        both planes.
+        Moments in the x-z and the y-z plane against the slopes dx/dz and dy/dz of the shaft; one number is the
+        same in both planes.
     damping : float [N m s/rad] or 2 x 2 numbers
-        Moment against the rates of these tilts.
+        Moments against the rates of these slopes.
 
     Raises
     ------

@@ -45,6 +45,12 @@ def test_campbell_diagram_in_rpm_and_hertz(tmp_path):
     assert save(picture, tmp_path / "campbell.png").stat().st_size > 10_000
 
 
+def test_a_campbell_diagram_leaves_out_modes_far_above_the_speed():
+    assert plot_campbell(CHART).panels[0].y_limits == (0.0, None)
+    chart = replace(CHART, eigenvalues=CHART.eigenvalues * [[1.0], [100.0]])
+    assert plot_campbell(chart).panels[0].y_limits == pytest.approx((0.0, 10.0))
+
+
 def test_a_campbell_diagram_draws_no_roundoff_as_growth():
     values = np.array([[-1e-9 + 10j, 1e-9 + 12j, 1e-7 + 14j]])
     chart = replace(CHART, eigenvalues=values, direction=np.ones((1, 3)), roundoff=np.full((1, 3), 1e-8))
