@@ -33,7 +33,7 @@ DAMPING = ColorScale("log decrement", "RdYlGn", -0.2, 0.2)
 """Of a Campbell diagram: red is unstable, green well damped."""
 
 FAR = 10.0
-"""Highest frequency of a Campbell diagram over that of its highest speed beyond which only a part is shown."""
+"""Highest frequency over that of the highest speed, beyond which a Campbell diagram shows only a part."""
 
 DECREMENTS = (-1.0, 3.0)
 """Log decrements that decide: beyond, a mode is unstable or overdamped in any case."""

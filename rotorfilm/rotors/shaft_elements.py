@@ -595,8 +595,8 @@ class TiltSpring:
     node : int
         Index of the node, from 0 at the first end of the shaft.
     stiffness : float [N m/rad] or 2 x 2 numbers
-        Moments in the x-z and the y-z plane against the slopes dx/dz and dy/dz of the shaft; one number is the
-        same in both planes.
+        Moments against the slopes of the shaft in the x-z plane and in the y-z plane; one number is the same
+        in both.
     damping : float [N m s/rad] or 2 x 2 numbers
         Moments against the rates of these slopes.
 
