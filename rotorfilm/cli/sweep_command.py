@@ -33,6 +33,8 @@ def sweep(
 ) -> CommandOutput:
     """Solve a scene at all combinations of some values of its keys, into a NetCDF file.
 
+    Exits with 1 if every point failed, and with 2 for bad input.
+
     Example: rotorfilm sweep examples/question.toml --vary "journal.clearance = 50 um, 60 um, 70 um" --vary
     "operation.speed = 1000 rpm : 3000 rpm : 5" --out sweep.nc
     """
@@ -65,7 +67,10 @@ def sweep(
     shown = {name: str(value) for name, value in answer.items()}
     if remarks:
         shown["remarks"] = f"{remarks} points: physics left out, or a model beyond its range"
-    return CommandOutput(answer, partial(console.print_rows, "sweep", shown.items()))
+    failure = None
+    if failed == answer["points"]:
+        failure = f"every point failed, the first with {dataset['failure'].values.flat[0]}"
+    return CommandOutput(answer, partial(console.print_rows, "sweep", shown.items()), failure)
 
 
 def read_variation(text: str) -> tuple[str, list[Any]]:

@@ -141,7 +141,8 @@ def unit_of(name: str) -> str:
 def _require_kept(scene: Scene) -> None:
     """Raise InputError for a scene that asks nothing and of whose answer a sweep keeps no numbers."""
     if scene.question is None and scene.bush is None and not scene.has_film:
-        raise InputError("a sweep must have a [question], or a bearing with a film or a bush, got neither")
+        what = "[shaft]" if scene.shaft else "scene without a film or a bush"
+        raise InputError(f"a sweep of a {what} needs a [question], unless it makes runs (`--runs`)")
 
 
 def _kept(answer: Answer | BushAnswer | QuestionAnswer) -> Row:
@@ -259,8 +260,10 @@ KEPT = 10_000
 """Largest number of scenes that are kept from the check of a sweep, about 20 kB each."""
 
 
-def check(scene: Mapping[str, Any], axes: Sequence[Axis], source: str) -> dict[int, Scene]:
+def check(scene: Mapping[str, Any], axes: Sequence[Axis], source: str, runs: bool) -> dict[int, Scene]:
     """Read the scenes along each dimension in turn, so that a wrong key or value is found before the work.
+
+    Without `runs`, each scene must have an answer of which a sweep keeps numbers.
 
     Returns
     -------
@@ -271,6 +274,8 @@ def check(scene: Mapping[str, Any], axes: Sequence[Axis], source: str) -> dict[i
     ------
     SceneError
         As a scene file raises it.
+    InputError
+        If a sweep keeps no numbers of a scene.
     """
     first, lengths = next(points(axes)), sizes(axes)
     stride, found = math.prod(lengths.values()), dict[int, Scene]()
@@ -287,6 +292,8 @@ def check(scene: Mapping[str, Any], axes: Sequence[Axis], source: str) -> dict[i
                 for key, value in values.items():
                     read_scene(varied(scene, {**first, key: value}), f"{source}, {key} = {value!r}")
                 continue
+            if not runs:
+                _require_kept(read)
             if caught:
                 read_scene(tables, source)
             elif len(found) < KEPT:

@@ -92,7 +92,8 @@ def sweep(
     Raises
     ------
     InputError
-        If an argument breaks its rule, xarray is not installed, or the path holds another sweep.
+        If an argument breaks its rule, xarray is not installed, the path holds another sweep, or a scene
+        without a question has no bearing with a film or a bush.
     SceneError
         If a scene file may not have the scene or one of the values.
 
@@ -111,7 +112,7 @@ def sweep(
         require_at_most("workers", workers, WORKERS)
     if runs and dask is not None:
         raise InputError(f"dask must be None for runs, which share threads of this process, got {dask!r}")
-    read = check(tables, axes, source)
+    read = check(tables, axes, source, runs)
     name = _name(tables, axes, runs)
     if target is not None and target.is_file():
         return load(target, name)

@@ -77,3 +77,39 @@ def test_points_with_remarks_are_counted(run, tmp_path):
     arguments += ["--out", str(tmp_path / "out.nc"), "--workers", "1"]
     _, printed, _ = run(*arguments)
     assert "2 points: physics left out" in " ".join(printed.split())
+
+
+SPRINGS = """
+schema = 1
+
+[shaft]
+material = { young_modulus = "211 GPa", shear_modulus = "81.2 GPa", density = 7810 }
+elements = [{ length = "1 m", outer_diameter = "50 mm", pieces = 2 }]
+disks = [{ node = 1, mass = "60 kg", polar_inertia = 0.1, diametral_inertia = 0.1 }]
+speeds = { first = "200 rpm", last = "4600 rpm", count = 5 }
+
+[[shaft.bearings]]
+name = "left"
+node = 0
+stiffness = [["1e7 N/m", 0], [0, "1e7 N/m"]]
+"""
+
+
+def test_a_shaft_without_a_question_is_refused_before_the_work(run, tmp_path):
+    scene, out = tmp_path / "plain.toml", tmp_path / "out.nc"
+    scene.write_text(SPRINGS, encoding="utf-8")
+    arguments = ["sweep", str(scene), "--vary", "shaft.disks.0.mass = 50 kg : 70 kg : 2", "--out", str(out)]
+    code, _, said = run(*arguments)
+    assert code == 2
+    assert "a sweep of a [shaft] needs a [question]" in said
+    assert not any(tmp_path.glob("out*"))
+
+
+@pytest.mark.filterwarnings("ignore:.*have no answer")
+def test_a_sweep_of_which_every_point_fails_has_failed(run, tmp_path):
+    arguments = ["sweep", str(SHORT), "--workers", "1", "--json", "--out", str(tmp_path / "out.nc")]
+    code, printed, said = run(*arguments, "--vary", "operation.load = 1e12 N, 2e12 N")
+    assert code == 1
+    assert json.loads(printed)["failed"] == 2
+    assert "every point failed, the first with EquilibriumError" in said
+    assert run(*arguments[:-1], str(tmp_path / "b.nc"), "--vary", "operation.load = 525 N, 1e12 N")[0] == 0
