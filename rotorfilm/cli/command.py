@@ -22,6 +22,7 @@ from types import NoneType, UnionType
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, NoReturn, Union, get_args, get_origin
 
 from ..core.errors import InputError, brief
+from ..core.units import dotted_key
 from . import printing as console
 
 if TYPE_CHECKING:
@@ -127,7 +128,7 @@ def read_settings(settings: Sequence[str] | None, flag: str = "--set") -> dict[s
     for text, (key, equals, value) in zip(settings or (), pairs, strict=True):
         if not (equals and key.strip() and value.strip()):
             raise InputError(f'{flag} must be "KEY=VALUE", got {brief(text)}')
-    keys = [key.strip() for key, _, _ in pairs]
+    keys = [dotted_key(key.strip()) for key, _, _ in pairs]
     if twice := next((key for key in keys if keys.count(key) > 1), None):
         raise InputError(f"{flag} must be given once for each key, got {brief(twice)} twice")
     return {key: _toml_value(value.strip()) for key, (_, _, value) in zip(keys, pairs, strict=True)}

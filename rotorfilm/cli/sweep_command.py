@@ -10,7 +10,7 @@ from typing import Annotated, Any
 from ..core.errors import InputError, brief
 from ..core.limits import SWEEP_POINTS
 from ..core.progress import Report
-from ..core.units import whole_number
+from ..core.units import dotted_key, whole_number
 from . import printing as console
 from .command import CommandOutput, Option, SceneFile, Settings, read_settings
 
@@ -84,16 +84,16 @@ def read_variation(text: str) -> tuple[str, list[Any]]:
     key, equals, values = text.partition("=")
     if not (equals and key.strip() and values.strip()):
         raise InputError(f'--vary must be "KEY = VALUES", got {brief(text)}')
-    parts = [part.strip() for part in values.split(":")]
+    key, parts = dotted_key(key.strip()), [part.strip() for part in values.split(":")]
     if len(parts) == 1:
-        return key.strip(), [_value(part.strip()) for part in values.split(",")]
+        return key, [_value(part.strip()) for part in values.split(",")]
     count = whole_number(parts[2]) if len(parts) == 3 else None
     if count is None or not 2 <= count <= SWEEP_POINTS:
         raise InputError(
             f'--vary must be "KEY = first : last : count" with a count from 2 to {SWEEP_POINTS}, '
             f"got {brief(text)}"
         )
-    return key.strip(), _spread(text, parts[0], parts[1], count)
+    return key, _spread(text, parts[0], parts[1], count)
 
 
 def _spread(text: str, first: str, last: str, count: int) -> list[Any]:

@@ -216,6 +216,11 @@ def whole_number(text: str) -> int | None:
     return int(text) if re.fullmatch(r"\s*[0-9]{1,18}\s*", text) else None
 
 
+def dotted_key(key: str) -> str:
+    """Return a key with dots alone: `shaft.disks[0].mass`, as messages have it, is `shaft.disks.0.mass`."""
+    return re.sub(r"\[([0-9]+)\]", r".\1", key)
+
+
 def _sensible(value: float, text: str | float) -> float:
     """Return a number as a float; raise InputError unless it is 0 or of a size that products can bear."""
     if not abs(value) < math.inf:

@@ -23,7 +23,7 @@ from ..core.port import Reaction
 from ..core.progress import Report, silent
 from ..core.results import Equilibrium
 from ..core.sources import offered
-from ..core.units import STANDARD_GRAVITY, whole_number
+from ..core.units import STANDARD_GRAVITY, dotted_key, whole_number
 from ..rotors.rigid import RigidRotor
 from . import shared_tables
 from .families import FAMILIES, brought, table_of
@@ -475,7 +475,7 @@ def varied(scene: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any
     for key, value in values.items():
         if key.count(".") > LINE_DOTS:
             raise SceneError(f"keys must not have more than {LINE_DOTS} dots, got {brief(key)}")
-        *path, last = key.split(".")
+        *path, last = dotted_key(key).split(".")
         place: Any = data
         for part in path:
             place = _inside(key, place, part)

@@ -18,7 +18,7 @@ from ..bearings.bush.table import BushAnswer
 from ..core.answers import QuestionAnswer
 from ..core.errors import InputError, RotorfilmError, ValidityWarning, said_once
 from ..core.limits import SWEEP_POINTS, require_at_most
-from ..core.units import UNITS
+from ..core.units import UNITS, dotted_key
 from ..scenes.film_answer import Answer
 from ..scenes.reading import Quantity, quantity_of
 from ..scenes.rotor_runs import PreparedRun, RotorRun, finished_run, prepared_run
@@ -174,7 +174,7 @@ class Axis:
     Attributes
     ----------
     key : str
-        Dotted, as `journal.clearance`; entries of lists by their number, as `shaft.disks.0.width`.
+        Dotted, as `journal.clearance`; an entry of a list by its number, as `shaft.disks.0.width`.
     dimension : str
         Dimension of the dataset.
     values : tuple
@@ -229,8 +229,9 @@ def read_axes(parameters: Mapping[str, Values]) -> tuple[Axis, ...]:
 def _axis(key: str, values: Values) -> Axis:
     shared = isinstance(values, tuple) and len(values) == 2 and isinstance(values[0], str)
     if shared and not isinstance(values[1], str) and isinstance(values[1], Sequence | np.ndarray):
-        return Axis(key=key, dimension=str(values[0]), values=_plain(key, values[1]))
-    return Axis(key=key, dimension=key.replace(".", "_"), values=_plain(key, values))
+        return Axis(key=dotted_key(key), dimension=str(values[0]), values=_plain(key, values[1]))
+    dotted = dotted_key(key)
+    return Axis(key=dotted, dimension=dotted.replace(".", "_"), values=_plain(key, values))
 
 
 def _plain(key: str, values: Any) -> tuple[Any, ...]:

@@ -26,7 +26,7 @@ from ..core.inputs import arguments, nearest, require_choice
 from ..core.model import Array
 from ..core.progress import Report, silent
 from ..core.readable import Drawable
-from ..core.units import parse_quantity
+from ..core.units import dotted_key, parse_quantity
 from ..scenes.reading import quantity_of
 from ..scenes.scene import Scene, read_tables, varied
 from .sweep_run import sweep
@@ -219,13 +219,14 @@ def _read(tables: Mapping[str, Any], key: str, tolerance: Any) -> tuple[float, f
     if not isinstance(key, str):
         raise InputError(f"tolerances must have dotted keys of the scene, got {brief(key)}")
     value: Any = tables
-    for part in key.split("."):
+    path = dotted_key(key).split(".")
+    for part in path:
         try:
             value = value[int(part) if isinstance(value, list) else part]
         except (KeyError, IndexError, ValueError, TypeError):
             meant = nearest(part, value if isinstance(value, Mapping) else ())
             raise InputError(f"tolerances must have keys that the scene gives, got {key!r}{meant}") from None
-    reader = quantity_of(Scene, key.split("."))
+    reader = quantity_of(Scene, path)
     if reader is None or isinstance(value, list):
         raise InputError(f"tolerances must have keys of quantities, got {key!r} = {value!r}")
     name, nominal = f"tolerances[{key!r}]", reader.parse(value)

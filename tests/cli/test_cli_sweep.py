@@ -113,3 +113,18 @@ def test_a_sweep_of_which_every_point_fails_has_failed(run, tmp_path):
     assert json.loads(printed)["failed"] == 2
     assert "every point failed, the first with EquilibriumError" in said
     assert run(*arguments[:-1], str(tmp_path / "b.nc"), "--vary", "operation.load = 525 N, 1e12 N")[0] == 0
+
+
+@pytest.mark.parametrize("key", ["shaft.disks.0.node", "shaft.disks[0].node"])
+def test_keys_of_lists_are_written_as_messages_have_them(run, tmp_path, key):
+    scene = tmp_path / "plain.toml"
+    scene.write_text(SPRINGS, encoding="utf-8")
+    code, _, said = run("solve", str(scene), "--set", f"{key}=7")
+    assert (code, "shaft.disks[0].node must be a node of the shaft, 0 to 2, got 7" in said) == (2, True)
+    assert read_variation(f"{key} = 0, 1") == ("shaft.disks.0.node", [0, 1])
+
+
+def test_two_forms_of_a_key_are_the_same_key(run):
+    twice = ["--set", "shaft.disks[0].node=1", "--set", "shaft.disks.0.node=1"]
+    code, _, said = run("solve", str(SHORT), *twice)
+    assert (code, "once for each key" in said) == (2, True)
