@@ -22,7 +22,7 @@ from ..rotors import ShaftRotor
 from .oil_film_tables import NONE
 from .reading import keyed
 from .scene import Scene, read_scene
-from .shaft_table import BEAMS, SEAL_KEYS
+from .shaft_table import BEAMS, OTHERS, SEAL_KEYS
 from .shared_tables import SCHEMA
 
 TABLES = {JournalBearing: "journal", AnnularSeal: "seal"}
@@ -99,7 +99,10 @@ def _bearing(bearing: Any, name: str) -> dict[str, Any]:
         return {key: np.asarray(getattr(bearing, key)).tolist() for key in ("stiffness", "damping")}
     key = TABLES.get(type(bearing))
     if key is None:
-        raise InputError(f"bearings[{name!r}] must be one that [shaft] of a scene takes, got {bearing!r}")
+        raise InputError(
+            f"bearings[{name!r}] must be a JournalBearing, an AnnularSeal or a LinearBearing for [shaft] of "
+            f"a scene, got {type(bearing).__name__}; {OTHERS}"
+        )
     found = _plain(bearing)
     if key == "seal":
         found = {one: value for one, value in found.items() if one in SEAL_KEYS}

@@ -24,6 +24,7 @@ from ..core.limits import SHAFT_ELEMENTS, SPEEDS, require_at_most
 from ..core.model import Array
 from ..core.port import Reaction
 from . import reading
+from .families import FAMILIES
 from .shared_tables import LubricantTable, UnbalanceTable
 
 # What a shaft of a scene is made of: its pieces, couplings, disks, and bearings.
@@ -253,16 +254,30 @@ class BearingTable:
         return reading.made_from(rotors.Station, self, feels_tilt=feels_tilt)
 
 
+OTHERS = (
+    "tilting pads, lobes, pressure dams, dampers and tables of coefficients need Python, where a ShaftRotor "
+    "takes any bearing, for example by rotorfilm.mount"
+)
+"""Who takes a bearing that [shaft] of a scene does not."""
+
+
 class BearingList(reading.TableList):
     """Reader of `shaft.bearings`."""
 
     def __call__(self, where: str, value: Any) -> tuple[Any, ...]:
-        """Return the bearings; raise SceneError for one of balls, too."""
+        """Return the bearings; raise SceneError for one of another family, too."""
         for k, entry in enumerate(value if isinstance(value, list) else ()):
-            if isinstance(entry, Mapping) and "ball_bearing" in entry:
+            given = (name for name in FAMILIES if isinstance(entry, Mapping) and name in entry)
+            other = next((name for name in given if not hasattr(self.table, name)), None)
+            if other == "ball_bearing":
                 raise SceneError(
                     f"{where}[{k}].ball_bearing must be left out: a shaft in a scene takes no ball bearings; "
                     "rotorfilm.MomentCarryingBalls in Python does"
+                )
+            if other:
+                raise SceneError(
+                    f"{where}[{k}].{other} must be left out: a bearing of [shaft] is a journal (plain), a "
+                    f"seal, a thrust bearing, or stiffness and damping; {OTHERS}"
                 )
         return super().__call__(where, value)
 

@@ -362,10 +362,14 @@ def test_a_seal_holds_a_shaft_and_moves_along():
     assert not any("added mass" in line for line in answer.remarks)
 
 
-def test_a_shaft_in_a_scene_takes_no_ball_bearings():
+def test_a_shaft_in_a_scene_names_the_bearings_that_it_takes():
     text = (Path(__file__).parents[2] / "examples" / "flexible_rotor.toml").read_text(encoding="utf-8")
-    wrong = text + '\n[[shaft.bearings]]\nname = "balls"\nnode = 3\nball_bearing = {}\n'
+    wrong = text + '\n[[shaft.bearings]]\nname = "other"\nnode = 3\nball_bearing = {}\n'
     with pytest.raises(
         SceneError, match=r"shaft\.bearings\[2\]\.ball_bearing must be left out: .*MomentCarryingBalls"
     ):
-        parse_scene(wrong, "balls.toml")
+        parse_scene(wrong, "other.toml")
+    for family in ("tilting_pad", "lobed_journal", "pressure_dam", "damper"):
+        message = rf"shaft\.bearings\[2\]\.{family} must be left out: .*a journal \(plain\), a seal.*mount"
+        with pytest.raises(SceneError, match=message):
+            parse_scene(wrong.replace("ball_bearing", family), "other.toml")
