@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.errors import FmuError, InputError, require_finite, require_positive
+from ..core.errors import FmuError, InputError, RotorfilmError, require_finite, require_positive
 from ..core.files import write_atomically
 from ..core.inputs import arguments, quantity, require_choice
 from ..core.model import Array, Dynamic, Linearization, Model, Stepped
-from ..core.port import freedoms_of, in_time, inertial
+from ..core.port import freedoms_of, from_rest, in_time, inertial
 from ..core.signals import PLANAR, Signal, indices, names
 from ..native.spec import HasKernel, NativeSpec, sized_spec
 from .archive import copyright_line, to_zip
@@ -79,7 +79,8 @@ def export_fmu(
         Identifier in front of the dot of each variable's name, and name of the FMU; by default that of
         a bearing by `as_reaction`, or of the model's class in snake case.
     start : mapping of str to float, optional
-        Start values of inputs by signal name, in SI units; 0 where none is given.
+        Start values of inputs by signal name, in SI units; 0 where none is given. Pads without a `start` of
+        their own begin in the tilts in which they rest under a journal at this position and speed.
     stop_time, step_size : float [s]
         Default experiment that the FMU suggests.
     author : str
@@ -109,7 +110,7 @@ def export_fmu(
     target = Path(path)
     for argument, value in (("stop_time", stop_time), ("step_size", step_size)):
         require_positive(argument, value)
-    subject = in_time(exported_subject(model))
+    subject = pads_at_rest(in_time(exported_subject(model)), start or {})
     spec = subject.native() if isinstance(subject, HasKernel) else None
     native = is_native(subject, spec, backend)
     spec = sized(spec) if fixed_size else spec
@@ -255,6 +256,24 @@ def start_values(model: Model | Stepped, start: Mapping[str, float | str]) -> di
         argument = f"start[{name!r}]"
         found[name] = float(require_finite(argument, quantity(argument, value, signals[name].unit)))
     return found
+
+
+def pads_at_rest(model: Model | Stepped, start: Mapping[str, float | str]) -> Any:
+    """Return tilting pads in the tilts of a journal at rest at the start values; any other model as it is.
+
+    Pads with a start of their own keep it, and so do pads without speed, which have no such tilts.
+    """
+    if not hasattr(model, "from_rest") or getattr(model, "start", None):
+        return model
+    x, y, speed = (start_values(model, start)[name] for name in ("x", "y", "speed"))
+    if speed == 0.0 or x == y == 0.0:
+        return model
+    try:
+        return from_rest(model, np.array([x, y]), speed, None)
+    except RotorfilmError as error:
+        raise InputError(
+            f"start must be values at which the pads rest, got {[x, y, speed]}: {error}"
+        ) from error
 
 
 def _state_hint(model: Model | Stepped, name: str) -> str:

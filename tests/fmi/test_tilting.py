@@ -11,7 +11,7 @@ import pytest
 from fmpy.fmi1 import FMICallException
 from scipy.integrate import solve_ivp
 
-from rotorfilm import TiltingPadBearing, even_pivots, export_fmu
+from rotorfilm import InputError, TiltingPadBearing, equilibrium, even_pivots, export_fmu
 from rotorfilm.bearings import PadMapFilm, PadResolution
 from rotorfilm.fmu import check_fmu
 from rotorfilm.native import FOLDER
@@ -117,6 +117,27 @@ def test_tilts_are_those_of_a_tight_integration(model, version, tmp_path):
     expected = integrated(model, PLACE, end)
     n = model.coordinates
     assert found[:n] == pytest.approx(expected[:n], abs=1e-9 * 1e-4)
+
+
+@pytest.mark.parametrize("own", [False, True], ids=["no start", "own start"])
+def test_pads_without_a_start_rest_under_the_journal_at_its_start(own, tmp_path):
+    load = np.array([0.0, -900.0])
+    place = equilibrium(LIGHT, load, SPEED).position
+    start = {"x": place[0], "y": place[1], "speed": f"{SPEED} rad/s"}
+    model = started(LIGHT) if own else LIGHT
+    path = export_fmu(model, tmp_path / "t.fmu", component="film", start=start)
+    names = ["film.force_x", "film.force_y", *(f"film.state_{one.name}" for one in model.states)]
+    ran = fmpy.simulate_fmu(str(path), fmi_type="CoSimulation", stop_time=1e-3, step_size=1e-3, output=names)
+    found = np.array([ran[name] for name in names])
+    if own:
+        assert found[2:, 0] == pytest.approx(model.initial_state, rel=1e-12)
+    else:
+        np.testing.assert_allclose(found[:2].T + load, 0.0, atol=1e-6 * 900.0)
+
+
+def test_pads_that_cannot_rest_under_the_start_are_named(tmp_path):
+    with pytest.raises(InputError, match=r"start must be values at which the pads rest, got \[0.0, -0.0002"):
+        export_fmu(LIGHT, tmp_path / "t.fmu", start={"y": -2e-4, "speed": SPEED})
 
 
 def test_a_c_host_moves_the_pads_over_an_orbit(tmp_path):
