@@ -196,8 +196,17 @@ def isothermal(remarks: Iterable[Remark]) -> tuple[Remark, ...]:
 
 
 def messages(remarks: Iterable[Remark], numbers: Mapping[str, float]) -> tuple[str, ...]:
-    """Return the lines of the remarks whose limits the numbers pass."""
-    return tuple(remark.line(numbers) for remark in remarks if remark.applies(numbers))
+    """Return the lines of the remarks whose limits the numbers pass.
+
+    Where no oil survives the heat, that is said in place of how thin it makes the oil.
+    """
+    said = [remark for remark in remarks if remark.applies(numbers)]
+    hot = next((one for one in said if one.number == "warming"), None)
+    thin = next((one for one in said if one.number == "thinning"), None)
+    if hot and thin:
+        said[said.index(thin)] = thin._replace(text=hot.text)
+        said.remove(hot)
+    return tuple(remark.line(numbers) for remark in said)
 
 
 def prefixed(prefix: str, lines: Iterable[str]) -> list[str]:
