@@ -83,6 +83,19 @@ def info(file: FmuFile) -> CommandOutput:
     return CommandOutput(found, partial(_print_info, str(file), found))
 
 
+NUMBER = len("-1.23456e-05")
+"""Width of a number with six digits."""
+
+
+def _cell(key: str, value: Any) -> str:
+    """Return what a table shows of a variable: start values with six digits, of which an array has many."""
+    text = "" if value is None else str(value)
+    try:
+        return " ".join(f"{float(number):.6g}" for number in text.split()) if key == "start" else text
+    except ValueError:  # a text, or true and false
+        return text
+
+
 def _print_info(title: str, found: dict[str, Any]) -> None:
     variables = found["variables"]
     shown = {key: value for key, value in found.items() if value is not variables}
@@ -90,6 +103,6 @@ def _print_info(title: str, found: dict[str, Any]) -> None:
     console.print_rows(title, rows.items())
     table = console.plain_table("variables")
     for key in variables[0] if variables else ():
-        table.add_column(key, overflow="fold")
-    cells = [["" if value is None else str(value) for value in row.values()] for row in variables]
+        table.add_column(key, overflow="fold", min_width=NUMBER if key == "start" else None)
+    cells = [[_cell(key, value) for key, value in row.items()] for row in variables]
     console.plain_console().print(console.filled(table, cells))

@@ -287,6 +287,16 @@ def test_fmu_info_lists_variables(run, tmp_path):
     assert "rotor.mass" in run("fmu", "info", path)[1]
 
 
+def test_fmu_info_writes_start_values_with_few_digits_on_one_line(run, tmp_path):
+    rotor = RigidRotor(
+        mass=50.0 + 1.0 / 3.0, speed=157.07963267948966, position=(0.0, -2.5903180240922623e-05)
+    )
+    path = export_fmu(rotor, tmp_path / "rotor.fmu", component="rotor")
+    shown = run("fmu", "info", path)[1]
+    assert all(text in shown.split() for text in ("50.3333", "157.08", "-2.59032e-05"))
+    assert "33333333" not in shown
+
+
 @pytest.mark.parametrize("command", ["check", "info"])
 def test_a_file_that_is_no_fmu_is_bad_input(run, scene, command):
     code, out, err = run("fmu", command, scene)
