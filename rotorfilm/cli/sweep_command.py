@@ -21,7 +21,7 @@ def sweep(
     vary: Annotated[
         list[str],
         Option(
-            help="Key and its values: a list, or first : last : count. Once for each key.",
+            help="Key and its values: a list, as 80 um, 100 um, or first : last : count. Once for each key.",
             metavar='"KEY = VALUES"',
         ),
     ],
@@ -83,15 +83,17 @@ def read_variation(text: str) -> tuple[str, list[Any]]:
     """
     key, equals, values = text.partition("=")
     if not (equals and key.strip() and values.strip()):
-        raise InputError(f'--vary must be "KEY = VALUES", got {brief(text)}')
+        raise InputError(
+            f'--vary must be "KEY = VALUE, VALUE" or "KEY = first : last : count", got {brief(text)}'
+        )
     key, parts = dotted_key(key.strip()), [part.strip() for part in values.split(":")]
     if len(parts) == 1:
         return key, [_value(part.strip()) for part in values.split(",")]
     count = whole_number(parts[2]) if len(parts) == 3 else None
     if count is None or not 2 <= count <= SWEEP_POINTS:
         raise InputError(
-            f'--vary must be "KEY = first : last : count" with a count from 2 to {SWEEP_POINTS}, '
-            f"got {brief(text)}"
+            f'--vary must be "KEY = VALUE, VALUE" or "KEY = first : last : count" with a count from 2 to '
+            f"{SWEEP_POINTS}, got {brief(text)}"
         )
     return key, _spread(text, parts[0], parts[1], count)
 
