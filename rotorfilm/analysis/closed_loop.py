@@ -15,6 +15,7 @@ from ..core.errors import (
     ConvergenceError,
     EquilibriumError,
     InputError,
+    brief,
     require_finite,
     require_kind,
     warn_user,
@@ -181,8 +182,11 @@ def frequency_response(
 def checked_speeds(speeds: ArrayLike, name: str = "speeds") -> Array:
     """Return angular speeds [rad/s]; raise InputError unless they are positive and rising."""
     grid = require_finite(name, speeds)
-    if grid.ndim != 1 or not grid.size or grid[0] <= 0.0 or np.any(np.diff(grid) <= 0.0):
-        raise InputError(f"{name} must be a list of positive and rising numbers, got {speeds!r}")
+    if grid.ndim != 1 or not grid.size or grid[0] <= 0.0:
+        raise InputError(f"{name} must be a list of positive and rising numbers, got {brief(speeds)}")
+    if falls := np.flatnonzero(np.diff(grid) <= 0.0).tolist():
+        before, after = grid[falls[0] : falls[0] + 2]
+        raise InputError(f"{name} must rise, got {before:.6g} before {after:.6g}")
     return grid
 
 

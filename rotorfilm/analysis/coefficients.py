@@ -238,7 +238,7 @@ def coefficient_table(reaction: port.Reaction, load: ArrayLike, speeds: ArrayLik
     port.require_reaction("reaction", reaction)
     grid = require_finite("speeds", speeds)
     if grid.ndim != 1 or not grid.size:
-        raise InputError(f"speeds must be a list of rising numbers, got {speeds!r}")
+        raise InputError(f"speeds must be a list of rising numbers, got {brief(speeds)}")
     rests = equilibria(reaction, load, grid)
     points = coefficients_at(reaction, rests)
     return offered("TabulatedBearing")(

@@ -16,6 +16,7 @@ from scipy.optimize import linear_sum_assignment
 from ..core.errors import (
     ConvergenceError,
     InputError,
+    brief,
     require_finite,
     require_number,
     require_positive,
@@ -456,7 +457,7 @@ def speeds_in_turn(speeds: ArrayLike) -> Array:
     grid = require_finite("speeds", speeds)
     steps = np.diff(grid) if grid.ndim == 1 else np.zeros(1)
     if not grid.size or not (np.all(steps > 0.0) or np.all(steps < 0.0)):
-        raise InputError(f"speeds must be a list of rising or of falling numbers, got {speeds!r}")
+        raise InputError(f"speeds must be a list of rising or of falling numbers, got {brief(speeds)}")
     return grid
 
 

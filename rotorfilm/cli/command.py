@@ -21,7 +21,7 @@ from pathlib import Path
 from types import NoneType, UnionType
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, NoReturn, Union, get_args, get_origin
 
-from ..core.errors import InputError, brief
+from ..core.errors import EquilibriumError, InputError, brief
 from ..core.units import dotted_key
 from . import printing as console
 
@@ -145,11 +145,12 @@ def _toml_value(text: str) -> Any:
 
 @contextmanager
 def inside(scene: Path) -> Iterator[None]:
-    """Let an InputError about a scene begin with the name of its file."""
+    """Let an error about a scene begin with the name of its file, and a load or speed be a key of it."""
     try:
         yield
-    except InputError as error:
-        raise InputError(f"{scene}: {error}") from None
+    except (InputError, EquilibriumError) as error:
+        operating = isinstance(error, EquilibriumError) and str(error).startswith(("load must", "speed must"))
+        raise type(error)(f"{scene}: {'operation.' if operating else ''}{error}") from None
 
 
 def make_room(out: Path | None) -> None:

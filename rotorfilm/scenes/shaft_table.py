@@ -407,7 +407,7 @@ class SpeedRangeTable:
     def __post_init__(self) -> None:
         require_positive("first", self.first)
         if not self.last > self.first:
-            raise InputError(f"last must be above first {self.first!r}, got {self.last!r}")
+            raise InputError(f"last must be above first, {self.first:.6g} rad/s, got {self.last:.6g} rad/s")
 
     def build(self) -> Array:
         """Return the speeds [rad/s]."""

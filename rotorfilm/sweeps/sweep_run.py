@@ -130,8 +130,13 @@ def sweep(
 
 
 def _require_xarray() -> None:
-    if any(find_spec(name) is None for name in ("xarray", "h5netcdf", "h5py")):
-        raise InputError("a sweep needs the extra `sweep`: python -m pip install '.[sweep]' in its source")
+    missing = [name for name in ("xarray", "h5netcdf", "h5py") if find_spec(name) is None]
+    if missing:
+        raise InputError(f"a sweep needs {', '.join(missing)} of {EXTRA}")
+
+
+EXTRA = "the extra `sweep`: python -m pip install '.[sweep]' in the source of rotorfilm"
+"""Where the packages of a sweep come from."""
 
 
 def _tables(scene: str | os.PathLike[str] | Mapping[str, Any]) -> tuple[Mapping[str, Any], str]:
@@ -420,9 +425,7 @@ def solved_by_dask(
     try:
         from distributed import Client, as_completed as completed
     except ImportError:
-        raise InputError(
-            "dask needs the extra `sweep`: python -m pip install '.[sweep]' in its source"
-        ) from None
+        raise InputError(f"dask needs distributed of {EXTRA}") from None
     try:
         client = Client(address, timeout=10)
     except OSError as error:

@@ -1,6 +1,7 @@
 """The command `rotorfilm sweep`."""
 
 import json
+import sys
 from pathlib import Path
 
 import pytest
@@ -72,6 +73,24 @@ def test_other_texts_are_named(text):
         read_variation(text)
 
 
+def test_the_message_names_both_forms_of_values(run):
+    with pytest.raises(InputError, match='"KEY = VALUE, VALUE" or "KEY = first : last : count"'):
+        read_variation("journal.clearance = 80 um : 100 um")
+    assert "80 um, 100 um" in " ".join(run("sweep", "--help")[1].split())
+
+
+@pytest.mark.parametrize(
+    ("change", "code", "key"),
+    [
+        ("operation.load=1e12 N", 1, "operation.load must be within"),
+        ("operation.speed=0", 1, "operation.speed must let"),
+    ],
+)
+def test_a_load_that_no_film_carries_is_named_with_file_and_key(run, change, code, key):
+    found, _, said = run("solve", str(SHORT), "--set", change)
+    assert (found, f"error: {SHORT}: {key}" in said) == (code, True)
+
+
 def test_points_with_remarks_are_counted(run, tmp_path):
     arguments = ["sweep", str(SHORT), "--vary", "journal.clearance = 90 um, 100 um"]
     arguments += ["--out", str(tmp_path / "out.nc"), "--workers", "1"]
@@ -128,3 +147,10 @@ def test_two_forms_of_a_key_are_the_same_key(run):
     twice = ["--set", "shaft.disks[0].node=1", "--set", "shaft.disks.0.node=1"]
     code, _, said = run("solve", str(SHORT), *twice)
     assert (code, "once for each key" in said) == (2, True)
+
+
+def test_a_missing_package_is_named(run, monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, "h5py", None)
+    arguments = ["--vary", "journal.clearance = 90 um, 100 um", "--out", str(tmp_path / "out.nc")]
+    code, _, said = run("sweep", str(SHORT), *arguments)
+    assert (code, "a sweep needs h5py of the extra `sweep`" in said) == (2, True)

@@ -119,8 +119,13 @@ def test_rotor_must_have_the_signals_of_a_journal(bearing):
 
 @pytest.mark.parametrize("speeds", [[], [0.0, 1.0], [2.0, 1.0], [[1.0]], [math.nan], 5.0])
 def test_speeds_must_be_positive_and_rising(bearing, speeds):
-    with pytest.raises(InputError, match="speeds must be"):
+    with pytest.raises(InputError, match=r"speeds must (be|rise)"):
         transmissibility(RigidRotor(mass=MASS, speed=1.0), bearing, LOAD, speeds)
+
+
+def test_the_first_speeds_that_fall_are_named(bearing):
+    with pytest.raises(InputError, match=r"^speeds must rise, got 942.5 before 890.1$"):
+        transmissibility(RigidRotor(mass=MASS, speed=1.0), bearing, LOAD, [900.0, 942.5, 890.1, *range(1000)])
 
 
 def test_speed_too_low_for_the_load(bearing):
