@@ -42,6 +42,9 @@ MOST, MOST_PER_STEP = 5000, 100
 JUMP = 1e-3
 """Relative change of K or C of a bearing within a step that was halved so often, from which it is a jump."""
 
+SAME = 0.05
+"""Relative change of an eigenvalue over a jump up to which it is told to be the same whirl."""
+
 NEAR = 1e-11
 """Difference of frequency and speed, as a part of the speed, at which a crossing is found."""
 
@@ -168,10 +171,25 @@ class _Search:
         else:
             jumps = [jump for step in self.unproven for jump in self._jumps(*step)]
             cause = "; ".join(jumps[:3]) or "whirls change too fast with the speed there"
+            cause += "".join(map(self._passing, *zip(*self.unproven[:3], strict=True)))
         return (
             "the list of critical speeds could not be proven complete between "
             f"{where} rad/s: {cause}. The {count} that were found are the partial result; take closer speeds "
             "there, or leave the interval out"
+        )
+
+    def _passing(self, low: float, high: float) -> str:
+        """Return what is to be said of a whirl that is faster than the rotation at one of two speeds only."""
+        whirls = []
+        for speed in (low, high):
+            values = np.linalg.eigvals(synchronous(self.model.structure, self.at(speed)).state_matrix())
+            whirls.append(values[np.argmin(np.abs(values.imag - abs(speed)))])
+        first, last = whirls
+        if (first.imag - abs(low)) * (last.imag - abs(high)) > 0.0 or abs(last - first) > SAME * abs(first):
+            return ""
+        return (
+            f"; a whirl has {first.imag:.6g} rad/s before and {last.imag:.6g} rad/s behind it, so a critical "
+            f"speed lies between {low:.9g} and {high:.9g} rad/s"
         )
 
     def _jumps(self, low: float, high: float) -> Iterator[str]:

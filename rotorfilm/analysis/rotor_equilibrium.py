@@ -13,13 +13,17 @@ from typing import Any, cast
 import numpy as np
 
 from ..core import port
+from ..core.dynamic_stiffness import quasi_static
 from ..core.errors import (
+    HEARD,
     ConvergenceError,
     EquilibriumError,
     FilmContactError,
     InputError,
+    UnloadedPadWarning,
     ValidityWarning,
     require_number,
+    warn_user,
 )
 from ..core.inputs import arguments
 from ..core.model import Array
@@ -208,6 +212,8 @@ def _result(system: RestEquations, q: Array, p: Array, temperatures: list[float 
     imbalance = system.residual(q, p, 1.0, forces)[0]
     places = dict(zip(system.names, system.split(p), strict=True))
     films = dict(zip(system.names, system.bearings, strict=True))
+    for name, at in places.items():
+        _warn_of_pads(name, films[name], at, system.speed)
     return RotorEquilibrium(
         speed=system.speed,
         coefficients={name: film_coefficients(films[name], at, system.speed) for name, at in places.items()},
@@ -216,6 +222,23 @@ def _result(system: RestEquations, q: Array, p: Array, temperatures: list[float 
         residual=float(np.abs(imbalance).max()) / system.size,
         temperatures={n: T for n, T in zip(system.names, temperatures, strict=True) if T is not None},
     )
+
+
+def _warn_of_pads(name: str, film: Any, position: Array, speed: float) -> None:
+    """Warn of unloaded pads at the equilibrium, once in a call for each station."""
+    still = quasi_static(film)
+    if still is film:
+        return
+    heard: list[tuple[str, type[Warning]]] = []
+    token = HEARD.set(heard)
+    try:
+        port.static_force(still, position, np.zeros_like(position), speed)
+    finally:
+        HEARD.reset(token)
+    for message, category in heard:
+        if category is UnloadedPadWarning:
+            told = f"in the bearing at {name!r} at {speed:.6g} rad/s {message}"
+            warn_user(told, category, (name, message))
 
 
 # The equations of a flexible rotor at rest in its bearings, and Newton's method for them.
@@ -228,6 +251,13 @@ CONTINUATION = 8
 """Steps in which the bearings' displacements are handed to the shaft when one step does not converge."""
 
 _NEWTON_STEPS = 40
+
+FREE_STEPS = 12
+"""Steps of Newton's method before those that do not bring the forces nearer to balance are shortened.
+
+Where a tilting pad gets its film, its load grows as the square root of the way, and whole steps only swing
+around the equilibrium.
+"""
 
 _HALVINGS, _OVERSHOOT, _LEFT = 60, 0.5, 0.9
 
@@ -312,7 +342,9 @@ class RestEquations:
             ]
             told = port.rest_place(bearing, straight, self.speed)
             return middle if told is None else np.asarray(told), None
-        at = equilibrium(bearing, load, self.speed)
+        # These pads may be unloaded and those at rest in the rotor not, or the other way round.
+        with warnings.catch_warnings(action="ignore", category=UnloadedPadWarning):
+            at = equilibrium(bearing, load, self.speed)
         return at.position, at.temperature
 
     def each_alone(self, loads: list[Array]) -> list[tuple[Array, float | None]]:
@@ -391,7 +423,7 @@ class RestEquations:
     def solve(self, q: Array, p: Array, s: float, *, downhill: bool = False) -> tuple[Array, Array]:
         """Return (q, p) by Newton's method, its steps kept within the clearances or such as lower energy."""
         n = len(q)
-        for _ in range(_NEWTON_STEPS):
+        for count in range(_NEWTON_STEPS):
             modal_reduction.tally("newton_steps")
             pressed = self.forces(p)
             forces, misfit = self.residual(q, p, s, pressed)
@@ -408,6 +440,12 @@ class RestEquations:
                 raise self.free() from None
             share = self._downhill(q, p, step, s) if downhill else self._within(p, step[n:])
             share = self._without_contact(p, step[n:], share)
+            if count >= FREE_STEPS and not downhill:
+                nearer = self._nearer(q, p, step, s, share)
+                balanced = np.abs(forces).max() <= port.MOST_LEFT * self.size
+                if not nearer and balanced and np.all(np.abs(misfit) <= misfit_limit):
+                    return q, p  # at the onset of a pad's film, a last digit of p is more than is left
+                share = nearer or share
             q, p = q + share * step[:n], p + share * step[n:]
         raise EquilibriumError(
             f"rotor must have an equilibrium at speed {self.speed!r} rad/s, and the search found none: "
@@ -457,6 +495,28 @@ class RestEquations:
             low, high = (low, share) if left < 0.0 else (share, high)
             share = 0.5 * (low + high)
         return share
+
+    def _nearer(self, q: Array, p: Array, step: Array, s: float, share: float) -> float:
+        """Return the part of a step, `share` at most, after which less is left of forces and misfits.
+
+        It is 0 where no part that moves a journal by more than roundoff does so.
+        """
+        dq, dp = np.split(step, [len(q)])
+        length = min(map(port.clearance_of, self.bearings), default=math.inf)
+
+        def left(part: float) -> float:
+            at = p + part * dp
+            forces, misfit = self.residual(q + part * dq, at, s, self.forces(at))
+            return math.hypot(*(forces / self.size), *(misfit / min(length, 1e-4)))
+
+        most, least = left(0.0), 4.0 * np.finfo(float).eps * np.abs(p).max(initial=0.0)
+        for _ in range(_HALVINGS):
+            if share * np.abs(dp).max(initial=0.0) <= least:
+                break
+            if left(share) < most:
+                return share
+            share *= 0.5
+        return 0.0
 
     def _without_contact(self, p: Array, step: Array, share: float) -> float:
         """Return the part of a step after which no tilted journal touches, which its center does not tell."""

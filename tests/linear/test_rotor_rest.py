@@ -1,13 +1,23 @@
 """Flexible rotors at rest in several bearings."""
 
+import re
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 from rotorfilm import EquilibriumError, InputError, LinearBearing
-from rotorfilm.analysis import coefficients, equilibrium, rotor_equilibrium, rotor_threshold, simulate
+from rotorfilm.analysis import (
+    campbell,
+    coefficients,
+    equilibrium,
+    rotor_equilibrium,
+    rotor_threshold,
+    simulate,
+)
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
 from rotorfilm.bearings.pads import TiltingPadBearing, even_pivots
+from rotorfilm.core import UnloadedPadWarning
 from rotorfilm.rotors import (
     ClassicalBeam,
     Disk,
@@ -50,6 +60,38 @@ def test_two_bearings_share_the_weight_by_the_lever():
         alone = equilibrium(film, at.loads[name], SPEED)
         assert_allclose(at.coefficients[name].position, alone.position, rtol=1e-7)
     assert at.residual < 1e-9
+
+
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.UnloadedPadWarning")
+def test_a_rotor_rests_where_a_pad_gets_its_film_as_each_journal_does_alone():
+    """The load of the upper pad begins as a square root there, and whole Newton steps go to and fro."""
+    pads = TiltingPadBearing(
+        radius=0.04,
+        length=0.04,
+        assembled_clearance=7e-5,
+        preload=0.3,
+        extent=np.pi / 3.0,
+        viscosity=0.02,
+        pivots=even_pivots(5, between_pads=True),
+    )
+    rotor = shaft(
+        elements=ShaftElement(length=1.5, outer_diameter=0.09, material=STEEL).split(6),
+        stations=(Station(node=0, name="left"), Station(node=3), Station(node=6, name="right")),
+    )
+    films, unloaded = {"left": pads, "": LinearBearing(stiffness=1e7), "right": pads}, []
+    for speed in (119.35, 119.3952, 119.42, 119.45, 119.5):
+        at = rotor_equilibrium(rotor, films, speed)
+        alone = equilibrium(pads, at.loads["right"], speed)
+        assert_allclose(at.coefficients["right"].position, alone.position, rtol=1e-7, atol=1e-13)
+        unloaded.append(bool(alone.pads.unloaded.any()))
+    assert unloaded[0]
+    assert not unloaded[-1]
+    with pytest.warns(UnloadedPadWarning) as told:
+        campbell(rotor, films, [119.5, 100.0, 90.0])
+    told = [str(one.message) for one in told]
+    assert len(told) == 2
+    assert re.match("in the bearing at 'left' at 100 rad/s pads 3", told[0])
+    assert re.match("in the bearing at 'right' at 100 rad/s pads 3", told[1])
 
 
 @pytest.mark.closed_form
