@@ -174,8 +174,8 @@ def test_load_vector_turns_the_answer(run, scene):
         ({"journal__clearance": "-0.1 mm"}, 2, "journal.clearance must be finite and positive, got -0.0001"),
         ({"journal__clearance": '"nan"'}, 2, "journal.clearance: quantity must be finite, got 'nan'"),
         ({"journal__film": '{ name = "shirt" }'}, 2, "got 'shirt'; did you mean 'short'?"),
-        ({"operation__load": "1e20 N"}, 1, "error: load must be within the film's capacity"),
-        ({"operation__speed": "0 rpm"}, 1, "error: speed must let the film carry the load"),
+        ({"operation__load": "1e20 N"}, 1, ".toml: operation.load must be within the film's capacity"),
+        ({"operation__speed": "0 rpm"}, 1, ".toml: operation.speed must let the film carry the load"),
     ],
 )
 def test_mistake_gives_one_line_and_its_exit_code(run, scene, changes, code, message):

@@ -429,7 +429,7 @@ def test_speeds_must_rise_or_fall(speeds):
 
 @pytest.mark.parametrize("speeds", [[], [0.0, 1.0], [2.0, 1.0], [[1.0]], 5.0])
 def test_speeds_of_a_response_must_be_positive_and_rising(speeds):
-    with pytest.raises(InputError, match="speeds must be"):
+    with pytest.raises(InputError, match=r"speeds must (be|rise)"):
         unbalance_response(friswell(), both(SPRING), speeds)
 
 
