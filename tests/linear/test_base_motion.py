@@ -208,5 +208,5 @@ def test_what_else_does_not_fit_is_named():
     with pytest.raises(InputError, match="base must be a BaseMotion"):
         BaseExcitedRotor(rotor=BODY, base=3.0)
     rest = rotor_equilibrium(BODY, HELD, 50.0)
-    with pytest.raises(InputError, match="frequencies must be a list of positive and rising numbers"):
+    with pytest.raises(InputError, match="frequencies must rise, got 2 before 1"):
         base_response(BODY, rest, [2.0, 1.0])
