@@ -78,8 +78,8 @@ def plot_campbell(
     if found:
         at = np.array([one.speed for one in found])
         marks.append(_points(at / RPM, np.abs(at) / HERTZ, "critical speed", "s", size=8.0))
-        for one, w in zip(found, at, strict=True):
-            whirl = "" if one.whirl == "forward" else f", {one.whirl}"
+        for w, whirl in zip(at, (one.whirl for one in found), strict=True):
+            whirl = "" if whirl == "forward" else f", {whirl}"
             marks.append(NoteMark(w / RPM, abs(w) / HERTZ, f"{w / RPM:.0f} rpm{whirl}", clear=True))
     limits, top = (float(speeds.min()), float(speeds.max())), float(np.abs(chart.speeds).max()) / HERTZ
     panel = PicturePanel(
