@@ -43,7 +43,7 @@ JUMP = 1e-3
 """Relative change of K or C of a bearing within a step that was halved so often, from which it is a jump."""
 
 SAME = 0.05
-"""Relative change of an eigenvalue over a jump up to which it is told to be the same whirl."""
+"""Largest relative change over a jump at which two eigenvalues count as the same whirl."""
 
 NEAR = 1e-11
 """Difference of frequency and speed, as a part of the speed, at which a crossing is found."""
@@ -180,16 +180,17 @@ class _Search:
 
     def _passing(self, low: float, high: float) -> str:
         """Return what is to be said of a whirl that is faster than the rotation at one of two speeds only."""
-        whirls = []
+        whirls, slower = [], []
         for speed in (low, high):
             values = np.linalg.eigvals(synchronous(self.model.structure, self.at(speed)).state_matrix())
             whirls.append(values[np.argmin(np.abs(values.imag - abs(speed)))])
+            slower.append(int(np.sum((values.imag > 0.0) & (values.imag < abs(speed)))))
         first, last = whirls
-        if (first.imag - abs(low)) * (last.imag - abs(high)) > 0.0 or abs(last - first) > SAME * abs(first):
+        if slower[0] == slower[1] or abs(last - first) > SAME * abs(first):
             return ""
         return (
-            f"; a whirl has {first.imag:.6g} rad/s before and {last.imag:.6g} rad/s behind it, so a critical "
-            f"speed lies between {low:.9g} and {high:.9g} rad/s"
+            f"; the frequency of one whirl goes from {first.imag:.6g} to {last.imag:.6g} rad/s there, so a "
+            f"critical speed lies between {low:.9g} and {high:.9g} rad/s"
         )
 
     def _jumps(self, low: float, high: float) -> Iterator[str]:

@@ -296,7 +296,7 @@ STEP = 0.6
 NEAR_ONE = 0.5
 """Distance of D/E from 1 at the last frequency."""
 
-_HALVINGS, _DOUBLINGS = 40, 40
+_HALVINGS, _DOUBLINGS, _MOST_POINTS = 40, 40, 100_000
 
 
 def growing_count(ratio: Callable[[Array], Complex], frequencies: Array, reference: int = 0) -> int:
@@ -331,11 +331,15 @@ def growing_count(ratio: Callable[[Array], Complex], frequencies: Array, referen
             "the inertia must outweigh the stiffness at high frequencies to count growing motions, but D/E "
             f"is {values[-1]:.3g} at {points[-1]:.3g} rad/s"
         )
+    at = points[1:]
     for _ in range(_HALVINGS + 1):
-        turns = np.angle(values[1:] * values[:-1].conj())
-        far = np.flatnonzero(~(np.abs(turns) <= STEP) | (values[:-1] == 0.0))
+        unit = values / np.abs(values)  # a product of values may underflow
+        turns = np.angle(unit[1:] * unit[:-1].conj())
+        far = np.flatnonzero(~(np.abs(turns) <= STEP))
         if not len(far):
             return reference - round((turns.sum() - np.angle(values[-1])) / math.pi)
+        if len(points) > _MOST_POINTS:
+            break
         halves = 0.5 * (points[far] + points[far + 1])
         at, values = points[far + 1], np.insert(values, far + 1, ratio(halves))
         points = np.insert(points, far + 1, halves)

@@ -253,7 +253,7 @@ CONTINUATION = 8
 _NEWTON_STEPS = 40
 
 FREE_STEPS = 12
-"""Steps of Newton's method before those that do not bring the forces nearer to balance are shortened.
+"""Number of whole Newton steps; later steps are halved until the imbalance falls.
 
 Where a tilting pad gets its film, its load grows as the square root of the way, and whole steps only swing
 around the equilibrium.
@@ -442,7 +442,8 @@ class RestEquations:
             share = self._without_contact(p, step[n:], share)
             if count >= FREE_STEPS and not downhill:
                 nearer = self._nearer(q, p, step, s, share)
-                balanced = np.abs(forces).max() <= port.MOST_LEFT * self.size
+                pads = any(quasi_static(one) is not one for one in self.bearings)
+                balanced = pads and np.abs(forces).max() <= port.MOST_LEFT * self.size
                 if not nearer and balanced and np.all(np.abs(misfit) <= misfit_limit):
                     return q, p  # at the onset of a pad's film, a last digit of p is more than is left
                 share = nearer or share

@@ -290,10 +290,12 @@ class _Stability(NamedTuple):
         speed, value, shape, slope = found
         size = _size(value, speed)
         change = value_error(self.rotor, self.bearings, speed, value)
+        whirls = bool(oscillates(np.array(value)))
+        direction = directions(self.rotor.assembly, shape[:, None], speed)[0] if whirls else 0.0
         return StabilityChange(
             speed=speed,
-            whirl_frequency=value.imag if oscillates(np.array(value)) else 0.0,
-            direction=float(directions(self.rotor.assembly, shape[:, None], speed)[0]),
+            whirl_frequency=value.imag if whirls else 0.0,
+            direction=float(direction),
             growing=0,
             speed_error=change / (size * slope) if change else 0.0,
         )

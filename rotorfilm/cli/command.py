@@ -150,6 +150,7 @@ def inside(scene: Path) -> Iterator[None]:
         yield
     except (InputError, EquilibriumError) as error:
         operating = isinstance(error, EquilibriumError) and str(error).startswith(("load must", "speed must"))
+        operating = operating and "operation" in tomllib.loads(scene.read_text(encoding="utf-8"))
         raise type(error)(f"{scene}: {'operation.' if operating else ''}{error}") from None
 
 

@@ -272,7 +272,8 @@ def pads_at_rest(model: Model | Stepped, start: Mapping[str, float | str]) -> An
         return from_rest(model, np.array([x, y]), speed, None)
     except RotorfilmError as error:
         raise InputError(
-            f"start must be values at which the pads rest, got {[x, y, speed]}: {error}"
+            f"start must be values at which the pads rest, unless the bearing has its own start; got "
+            f"{[x, y, speed]}: {error}"
         ) from error
 
 

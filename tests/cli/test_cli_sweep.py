@@ -84,3 +84,10 @@ def test_a_missing_package_is_named(run, monkeypatch, tmp_path):
     arguments = ["--vary", "journal.clearance = 90 um, 100 um", "--out", str(tmp_path / "out.nc")]
     code, _, said = run("sweep", str(SHORT), *arguments)
     assert (code, "a sweep needs h5py of the extra `sweep`" in said) == (2, True)
+
+
+def test_points_with_remarks_are_counted(run, tmp_path):
+    arguments = ["sweep", str(SHORT), "--vary", "journal.clearance = 90 um, 100 um"]
+    arguments += ["--out", str(tmp_path / "out.nc"), "--workers", "1"]
+    _, printed, _ = run(*arguments)
+    assert "2 points: physics left out" in " ".join(printed.split())
