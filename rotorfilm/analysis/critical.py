@@ -189,7 +189,7 @@ class _Search:
         if slower[0] == slower[1] or abs(last - first) > SAME * abs(first):
             return ""
         return (
-            f"; the frequency of one whirl goes from {first.imag:.6g} to {last.imag:.6g} rad/s there, so a "
+            f"; one whirl goes from {first.imag:.6g} to {last.imag:.6g} rad/s there, so a "
             f"critical speed lies between {low:.9g} and {high:.9g} rad/s"
         )
 
