@@ -13,6 +13,7 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.polynomial.polynomial import polyfromroots
 from numpy.typing import ArrayLike
 from scipy.linalg import block_diag
 from scipy.special import roots_jacobi
@@ -293,9 +294,11 @@ def radau_scheme(stages: int) -> Collocation:
     # The inner nodes are the zeros of Jacobi's polynomial of weight 1 - x on [0, 1].
     inner = 0.5 * (1.0 + roots_jacobi(stages - 1, 1.0, 0.0)[0])
     nodes = np.append(inner, 1.0)
-    lagrange = np.linalg.inv(np.vander(nodes, increasing=True)).T
-    remainder = np.polynomial.polynomial.polyfromroots(nodes)
-    return Collocation(nodes, np.ascontiguousarray(lagrange), remainder / remainder[0])
+    # Products over positive nodes have no cancellation, which an inverse of their powers has.
+    others = [np.delete(nodes, k) for k in range(stages)]
+    lagrange = [polyfromroots(rest) / np.prod(node - rest) for node, rest in zip(nodes, others, strict=True)]
+    remainder = polyfromroots(nodes)
+    return Collocation(nodes, np.array(lagrange), remainder / remainder[0])
 
 
 class ModalArrays(NamedTuple):
