@@ -89,7 +89,7 @@ def test_what_is_said_has_the_numbers_and_the_other_end_of_the_band():
 
 def test_a_rise_of_temperature_that_no_oil_survives_is_said_first():
     thick = quietly(lambda: scene('viscosity = "1.5 Pa s"\n').film_remarks)
-    assert thick[0].startswith("heat: oil does not survive a rise of 8259 K")
+    assert thick[0].startswith("heat: the oil warms by about 8259 K, which no oil survives")
     assert [remark.partition(":")[0] for remark in thick].count("heat") == 1
     assert (thick[0].name, thick[0].size) == ("heat", pytest.approx(1.0))
     assert not any("survive" in remark for remark in quietly(lambda: scene().film_remarks))
