@@ -4,12 +4,13 @@
     python tools/build_wheels.py --out dist                                every platform
     python tools/build_wheels.py --out dist x86_64-linux aarch64-darwin    some of them
 
-Each wheel is checked: it must hold every library that CMake makes, for the right processor.
+Each wheel is checked: it must hold every library that CMake makes, for the right platform.
 """
 
 import argparse
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -27,14 +28,14 @@ TAGS = {
     "aarch64-darwin": "macosx_11_0_arm64",
 }
 """Platform tags of wheels, by the platform's folder in an FMU."""
-PROCESSORS = {
-    "x86_64-linux": (18, b"\x3e\x00"),
-    "aarch64-linux": (18, b"\xb7\x00"),
-    "x86_64-windows": (0, b"MZ"),
-    "x86_64-darwin": (4, b"\x07\x00\x00\x01"),
-    "aarch64-darwin": (4, b"\x0c\x00\x00\x01"),
+HEADERS = {
+    "x86_64-linux": rb"\x7fELF.{14}\x3e\x00",
+    "aarch64-linux": rb"\x7fELF.{14}\xb7\x00",
+    "x86_64-windows": rb"MZ.{,1000}PE\x00\x00\x64\x86",
+    "x86_64-darwin": rb"\xcf\xfa\xed\xfe\x07\x00\x00\x01",
+    "aarch64-darwin": rb"\xcf\xfa\xed\xfe\x0c\x00\x00\x01",
 }
-"""Where the header of a library names its processor, and with which bytes."""
+"""How a library of a platform begins: its format and its processor, as a regular expression."""
 
 
 def main(arguments: list[str]) -> None:
@@ -67,7 +68,7 @@ def build(target: Target, out: Path) -> Path:
         tags = [sys.executable, "-m", "wheel", "tags", "--platform-tag", TAGS[target.folder], str(built)]
         named = subprocess.run(tags, check=True, capture_output=True, text=True).stdout.strip()
         out.mkdir(parents=True, exist_ok=True)
-        return (Path(name) / named).replace(out / named)
+        return Path(shutil.move(Path(name) / named, out / named))
 
 
 def check(wheel: Path, target: Target) -> int:
@@ -76,19 +77,19 @@ def check(wheel: Path, target: Target) -> int:
     Raises
     ------
     ValueError
-        If one is missing, is of another platform, or is there twice.
+        If one is missing or is of another platform.
     """
     listed = (ROOT / "rotorfilm/native/kernels/kernel_list.h").read_text(encoding="utf-8")
     subsets = re.findall(r"^#define RF_(ROTORFILM\w*)", listed, re.MULTILINE)
     expected = {f"rotorfilm/native/{subset.lower()}.{target.suffix}" for subset in subsets}
-    start, processor = PROCESSORS[target.folder]
+    header = re.compile(HEADERS[target.folder], re.DOTALL)
     with zipfile.ZipFile(wheel) as archive:
         found = {name for name in archive.namelist() if name.endswith((".so", ".dll", ".dylib"))}
-        other = {name for name in found if not archive.read(name)[start:].startswith(processor)}
+        other = {name for name in found if not header.match(archive.read(name))}
     if found != expected or other:
         raise ValueError(
             f"{wheel.name} must hold {sorted(expected)} of {target.folder}, "
-            f"got {sorted(found)}, of another processor: {sorted(other)}"
+            f"got {sorted(found)}, of another platform: {sorted(other)}"
         )
     return len(found)
 

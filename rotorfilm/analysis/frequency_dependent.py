@@ -333,9 +333,9 @@ def growing_count(ratio: Callable[[Array], Complex], frequencies: Array, referen
         )
     at = points[1:]
     for _ in range(_HALVINGS + 1):
-        unit = values / np.abs(values)  # a product of values may underflow
-        turns = np.angle(unit[1:] * unit[:-1].conj())
-        far = np.flatnonzero(~(np.abs(turns) <= STEP))
+        # By phases: a product of two small values may underflow.
+        turns = np.angle(np.exp(1j * np.diff(np.angle(values))))
+        far = np.flatnonzero(~(np.abs(turns) <= STEP) | (values[:-1] == 0.0))
         if not len(far):
             return reference - round((turns.sum() - np.angle(values[-1])) / math.pi)
         if len(points) > _MOST_POINTS:

@@ -295,7 +295,7 @@ def _following(follow: np.ndarray, drive: np.ndarray, s: ArrayLike) -> np.ndarra
     except np.linalg.LinAlgError:
         raise InputError(
             "s must not be an eigenvalue of the states of the bearing alone, such as 0 for a state that "
-            f"integrates, got {s!r}"
+            f"integrates, got {brief(s)}"
         ) from None
 
 

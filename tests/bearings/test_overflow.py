@@ -7,6 +7,7 @@ import pytest
 
 import rotorfilm as rf
 from rotorfilm import InputError, RotorfilmError, ValidityWarning
+from rotorfilm.bearings.reaction import single_state
 
 FILM = {"radius": 0.05, "length": 0.02, "clearance": 1e-4, "viscosity": 4e-4}
 SEAL = {**FILM, "pressure_drop": 1e6, "density": 1000.0}
@@ -105,6 +106,7 @@ def test_a_single_state_has_the_force_of_a_batch_whatever_holds_it(kind):
     bearing = rf.JournalBearing(**FILM)
     batch = bearing.force([[1e-5], [-2e-5]], [[1.0], [0.0]], [300.0])
     assert np.array_equal(bearing.force(kind([1e-5, -2e-5]), kind([1, 0]), 300), batch[:, 0])
+    assert single_state(kind([1e-5, -2e-5]), kind([1, 0]), 300) is not None
 
 
 @pytest.mark.parametrize("bad", [True, np.nan, np.inf, 10**400, 1j, None])

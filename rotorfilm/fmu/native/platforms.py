@@ -53,8 +53,8 @@ TARGETS = (
     # FMI 2.0 has no name for it; its tools that know it use the one of FMI 3.0.
     Target("aarch64-linux", "aarch64-linux", "so", "aarch64-linux-gnu.2.17"),
     Target("x86_64-windows", "win64", "dll", "x86_64-windows-gnu"),
-    Target("x86_64-darwin", "darwin64", "dylib", "x86_64-macos"),
-    Target("aarch64-darwin", "darwin64", "dylib", "aarch64-macos"),
+    Target("x86_64-darwin", "darwin64", "dylib", "x86_64-macos.11.0"),
+    Target("aarch64-darwin", "darwin64", "dylib", "aarch64-macos.11.0"),
 )
 
 SYSTEMS = {"linux": "linux", "win32": "windows", "darwin": "darwin"}

@@ -167,6 +167,22 @@ def test_roots_are_counted(roots):
     assert count == np.sum(np.real(roots) > 0.0)
 
 
+@pytest.mark.closed_form
+def test_roots_are_counted_where_the_determinant_is_nearly_zero():
+    """Below 1e-162 the product of two values is 0."""
+    grid = np.concatenate([[0.0], np.geomspace(1.0, 1e11, 2000)])
+    assert growing_count(lambda nu: ((1j * nu - 1e3) / (1j * nu + 1e9)) ** 30, grid) == 30
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("within", [np.nan, 0.0])
+def test_a_band_without_a_phase_is_refused(within):
+    with pytest.raises(ConvergenceError, match="cannot be counted"):
+        growing_count(
+            lambda nu: np.where((nu > 2.0) & (nu < 3.0), within, 1.0 + 0j), np.linspace(0.0, 4.0, 9)
+        )
+
+
 def test_a_root_that_neither_grows_nor_decays_is_not_counted():
     with pytest.raises(ConvergenceError, match="neither grows nor decays"):
         growing_count(lambda nu: (9.0 - nu**2) / (1j * nu + 1.0) ** 2, np.linspace(0.0, 40.0, 100))

@@ -96,5 +96,8 @@ def test_a_place_left_and_found_again_has_the_same_force():
     film, speed = next(films())
     force = film.force(np.array([3e-5, -5e-5]), np.zeros(2), speed)
     for share in np.linspace(0.5, 0.9, 2 * mass_conserving.RECENT):
-        film.force(share * np.array([3e-5, -5e-5]), np.zeros(2), speed)
+        place = share * np.array([3e-5, -5e-5])
+        film.force(place, np.zeros(2), speed)
+        kept, fresh = (one.force(place, np.zeros(2), 0.9 * speed) for one in (film, next(films())[0]))
+        np.testing.assert_array_equal(kept, fresh)
     np.testing.assert_array_equal(film.force(np.array([3e-5, -5e-5]), np.zeros(2), speed), force)
