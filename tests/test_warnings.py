@@ -1,6 +1,7 @@
 """Our own warnings fail the tests, those of other packages do not, and users see only ours."""
 
 import warnings
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import control.statesp
@@ -9,6 +10,7 @@ import pytest
 
 from rotorfilm import LinearBearing, Scene, ValidityWarning, bundled_scene, linearize
 from rotorfilm.analysis import OperatingPoint, to_nlsys
+from rotorfilm.core.errors import UnloadedPadWarning, silencing, warn_user
 
 
 def deprecated(module):
@@ -74,3 +76,11 @@ def test_the_command_line_shows_our_warnings_only(run, monkeypatch):
     assert code == 0
     assert "ours" in shown
     assert "theirs" not in shown
+
+
+def test_a_silenced_category_is_given_in_other_threads():
+    with ThreadPoolExecutor(1) as pool, silencing(UnloadedPadWarning):
+        with warnings.catch_warnings(action="error"):
+            warn_user("here", UnloadedPadWarning)
+        with pytest.warns(UnloadedPadWarning, match="there"):
+            pool.submit(warn_user, "there", UnloadedPadWarning).result()

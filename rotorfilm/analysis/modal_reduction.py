@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import pickle
-import warnings
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -22,7 +21,7 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from ..core.dynamic_stiffness import quasi_static
-from ..core.errors import ConvergenceError, UnloadedPadWarning
+from ..core.errors import ConvergenceError, UnloadedPadWarning, silencing
 from ..core.frames import ResultTable
 from ..core.model import Array
 from ..core.port import Bearings, freedoms_of, require_reactions, static_force, static_slopes
@@ -394,8 +393,7 @@ def force_at(bearing: Any, place: Array, speed: float) -> Array:
     film = quasi_static(bearing)
     if film is bearing:
         return static_force(film, place, np.zeros_like(place), speed)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UnloadedPadWarning)
+    with silencing(UnloadedPadWarning):
         return static_force(film, place, np.zeros_like(place), speed)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from copy import copy
@@ -23,6 +22,7 @@ from ..core.errors import (
     UnloadedPadWarning,
     ValidityWarning,
     require_number,
+    silencing,
     warn_user,
 )
 from ..core.inputs import arguments
@@ -343,7 +343,7 @@ class RestEquations:
             told = port.rest_place(bearing, straight, self.speed)
             return middle if told is None else np.asarray(told), None
         # These pads may be unloaded and those at rest in the rotor not, or the other way round.
-        with warnings.catch_warnings(action="ignore", category=UnloadedPadWarning):
+        with silencing(UnloadedPadWarning):
             at = equilibrium(bearing, load, self.speed)
         return at.position, at.temperature
 
@@ -375,7 +375,7 @@ class RestEquations:
     def rest(self, q: Array, p: Array) -> tuple[Array, Array]:
         """Return (q, p) at rest, downhill among balls or by continuation where one step does not converge."""
         # A state that the search only passes through is nobody's answer; that of the result is warned of.
-        with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+        with silencing(ValidityWarning):
             with suppress(EquilibriumError):
                 return self.solve(q, p, 1.0)
             if min(self.sizes, default=0) > 2:

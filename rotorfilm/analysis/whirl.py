@@ -32,6 +32,7 @@ from ..core.errors import (
     brief,
     require_finite,
     require_positive,
+    silencing,
 )
 from ..core.inputs import arguments
 from ..core.model import Array
@@ -227,7 +228,7 @@ def _settling(
     onset, stable = _first_onset(growth, speeds[first:])
     if onset is None:
         return WhirlThreshold(**NO_THRESHOLD, reason=_why_none(stable, speeds))
-    with warnings.catch_warnings(action="ignore", category=UnloadedPadWarning):  # the rest itself tells them
+    with silencing(UnloadedPadWarning):  # the rest itself tells them
         rest = equilibrium(reaction, load, onset)
     found = _threshold(reaction, rest, mass, abs(least_damped(rest).imag) / onset, mass)
     if has_own_stiffness(reaction):

@@ -257,6 +257,20 @@ def said_once(*, anew: bool = False) -> Iterator[None]:
         SAID.reset(token)
 
 
+UNSAID: ContextVar[tuple[type[Warning], ...]] = ContextVar("UNSAID", default=())
+"""Categories of warnings that are not given now; of a thread, where filters are those of all threads."""
+
+
+@contextmanager
+def silencing(category: type[Warning]) -> Iterator[None]:
+    """Give no warnings of a category, as where a search only passes by."""
+    token = UNSAID.set((*UNSAID.get(), category))
+    try:
+        yield
+    finally:
+        UNSAID.reset(token)
+
+
 HEARD: ContextVar[list[tuple[str, type[Warning]]] | None] = ContextVar("HEARD", default=None)
 """Warnings given in a thread, which the thread that waits for it gives its user; None where they are given
 at once."""
@@ -269,6 +283,8 @@ def warn_user(
 
     What the `key` names is said once in an answer; see `said_once`.
     """
+    if issubclass(category, UNSAID.get()):
+        return
     said = SAID.get()
     if said is not None and key is not None:
         if key in said or _is_ignored(category):
