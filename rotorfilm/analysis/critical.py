@@ -43,7 +43,7 @@ JUMP = 1e-3
 """Relative change of K or C of a bearing within a step that was halved so often, from which it is a jump."""
 
 SAME = 0.05
-"""Largest relative change over a jump at which two eigenvalues count as the same whirl."""
+"""Largest relative distance of a whirl on each side of a jump from that with which it crosses there."""
 
 NEAR = 1e-11
 """Difference of frequency and speed, as a part of the speed, at which a crossing is found."""
@@ -144,17 +144,43 @@ class _Search:
         elif halvings:
             yield from self._between(low, middle, halvings - 1, most)
             yield from self._between(middle, high, halvings - 1, most)
-        elif self._may_leap(self._rests(low, middle, high), (0.0, 1.0), LEAP_HALVINGS):
-            self._leave(low, high)
+        else:
+            rests = self._rests(low, middle, high)
+            over = self._over_jump(rests, (0.0, 1.0), LEAP_HALVINGS)
+            if over is None or not all(self._keeps(one, rests) for one in over):
+                self._leave(low, high)
+            else:
+                yield from over
 
-    def _may_leap(self, rests: Rests, part: tuple[float, float], halvings: int) -> bool:
-        """Return whether a whirl may have the frequency of the rotation on a part of the way over a jump."""
-        told = Leap(self.model, rests, part).candidates()
-        if told is not None and not told[0]:
-            return False
+    def _over_jump(self, rests: Rests, part: tuple[float, float], halvings: int) -> list[Crossing] | None:
+        """Return the crossings on a part of the straight way over a jump; None if that is not proven."""
+        leap = Leap(self.model, rests, part)
+        told = leap.candidates()
+        if told is not None and (found := leap.passing(told[0])) is not None:
+            if found and told[1] > modal_reduction.TOLERANCE:
+                raise _Unproven
+            return [self._lifted(one, rests) for one in found]
+        if not halvings:
+            return None
         middle = 0.5 * (part[0] + part[1])
-        return not halvings or any(
-            self._may_leap(rests, half, halvings - 1) for half in ((part[0], middle), (middle, part[1]))
+        first = self._over_jump(rests, (part[0], middle), halvings - 1)
+        last = None if first is None else self._over_jump(rests, (middle, part[1]), halvings - 1)
+        return None if first is None or last is None else first + last
+
+    def _lifted(self, one: Crossing, rests: Rests) -> Crossing:
+        """Return a crossing in all coordinates of the rotor, with the sign of the speeds."""
+        forward = -1.0 if rests[1].speed < 0.0 else 1.0
+        right, left = (
+            side if self.model.space is None else self.model.lifted(side) for side in (one.right, one.left)
+        )
+        return Crossing(forward * one.speed, complex(one.value.real, one.speed), right, left)
+
+    def _keeps(self, one: Crossing, rests: Rests) -> bool:
+        """Return whether a whirl is nearly the same before and after the jump within which it crosses."""
+        sides = (synchronous(self.model.structure, at) for at in (rests[0], rests[2]))
+        return all(
+            np.abs(np.linalg.eigvals(side.state_matrix()) - one.value).min() <= SAME * abs(one.value)
+            for side in sides
         )
 
     def _leave(self, low: float, high: float) -> None:
@@ -171,26 +197,10 @@ class _Search:
         else:
             jumps = [jump for step in self.unproven for jump in self._jumps(*step)]
             cause = "; ".join(jumps[:3]) or "whirls change too fast with the speed there"
-            cause += "".join(map(self._passing, *zip(*self.unproven[:3], strict=True)))
         return (
             "the list of critical speeds could not be proven complete between "
             f"{where} rad/s: {cause}. The {count} that were found are the partial result; take closer speeds "
             "there, or leave the interval out"
-        )
-
-    def _passing(self, low: float, high: float) -> str:
-        """Return what is to be said of a whirl that is faster than the rotation at one of two speeds only."""
-        whirls, slower = [], []
-        for speed in (low, high):
-            values = np.linalg.eigvals(synchronous(self.model.structure, self.at(speed)).state_matrix())
-            whirls.append(values[np.argmin(np.abs(values.imag - abs(speed)))])
-            slower.append(int(np.sum((values.imag > 0.0) & (values.imag < abs(speed)))))
-        first, last = whirls
-        if slower[0] == slower[1] or abs(last - first) > SAME * abs(first):
-            return ""
-        return (
-            f"; one whirl goes from {first.imag:.6g} to {last.imag:.6g} rad/s there, so a "
-            f"critical speed lies between {low:.9g} and {high:.9g} rad/s"
         )
 
     def _jumps(self, low: float, high: float) -> Iterator[str]:
@@ -432,8 +442,8 @@ class SpannedModes:
 class Leap(SpannedModes):
     """The modes in the middle of a part of the way over a jump of K and C, straight from side to side.
 
-    A whirl that has nowhere on the way the frequency of the rotation is on the same side of it before and
-    after the jump.
+    Whirls that cross the frequency of the rotation on the way are as many as those that are faster than it on
+    one side only, if each crosses once at most.
 
     Parameters
     ----------
@@ -468,6 +478,21 @@ class Leap(SpannedModes):
                 for share in shares
             ]
         )
+
+    def passing(self, candidates: list[Crossing]) -> list[Crossing] | None:
+        """Return those that may cross within the part if they do; None if a smaller part must tell."""
+        if not candidates:
+            return []
+        faster = [
+            int(np.sum(np.linalg.eigvals(system.state_matrix()).imag > line))
+            for system, line in zip(
+                self.systems[::2], (self.middle - self.half, self.middle + self.half), strict=True
+            )
+        ]
+        count = abs(faster[1] - faster[0])
+        if count == len(candidates):
+            return candidates
+        return [] if count == 0 and len(candidates) == 1 else None
 
 
 def of_one_mass(systems: Sequence[rotor_matrices.SecondOrder]) -> tuple[rotor_matrices.SecondOrder, ...]:

@@ -674,7 +674,7 @@ def critical_speeds(
         If there is no equilibrium at one of the speeds, or between them.
     ConvergenceError
         If the list cannot be proven complete in some intervals, for example where coefficients of a bearing
-        jump and a whirl is slower than the rotation on one side only. Also if a search takes too many
+        jump and a whirl leaps far across the frequency of the rotation. Also if a search takes too many
         equilibria. The message names the likely cause. `partial` has those found in all of the range.
 
     Notes
@@ -691,7 +691,8 @@ def critical_speeds(
     bend within a step at most twice as much as the parabola through both ends and the middle. For
     frequency-dependent films it holds for whirls with |Re s| up to three times the speed. Where K and C jump,
     for example where a tilting pad becomes loaded, the same is proven on a straight path between both sides
-    of the jump: there no whirl may have the frequency of the rotation. Without damping, and with a symmetric
+    of the jump. A whirl that crosses on this path, and that changes by at most 5 %, has a critical speed at
+    the jump, which is known to 1/16384 of a step of `speeds`. Without damping, and with a symmetric
     stiffness that is the same at all speeds, the number of critical speeds is also checked in all
     coordinates, by Sylvester's law of inertia.
     """
