@@ -365,10 +365,11 @@ def as_data_sheet(cls: type[T]) -> type[T]:
 
 
 def sheet_rows(thing: Any) -> list[Row]:
-    """Return the rows of an input: all but plain defaults and what its pages show."""
+    """Return the rows of an input: all but plain defaults, what its pages show, and fields that repr hides."""
     usual = {one.name: repr(one.default) for one in fields(thing)}
-    items, tabled = items_of(thing, getattr(thing, "_shown", ())), getattr(thing, "_tabled", ())
-    told = (one for one in items if one.name not in tabled and not _is_many(one.value))
+    hidden = {*getattr(thing, "_tabled", ()), *(one.name for one in fields(thing) if not one.repr)}
+    items = items_of(thing, getattr(thing, "_shown", ()))
+    told = (one for one in items if one.name not in hidden and not _is_many(one.value))
     return rows_of(one for one in told if is_dataclass(one.value) or repr(one.value) != usual.get(one.name))
 
 
@@ -453,8 +454,9 @@ def _rows(item: Item) -> list[Row]:
     """Return the rows of one thing that a result holds."""
     label, value = label_of(item.name), item.value
     if isinstance(value, Readable) or (is_dataclass(value) and len(_line(value)) > LONGEST):
-        inside = rows_of(items_of(value, getattr(value, "_shown", ())))
-        return [(label, ""), *((f"  {inner}", text) for inner, text in inside)]
+        inside = value.to_rows() if isinstance(value, Readable) else sheet_rows(value)
+        head = "" if inside else f"{type(value).__name__}()"
+        return [(label, head), *((f"  {inner}", text) for inner, text in inside)]
     if isinstance(value, tuple | list) and any(is_dataclass(one) for one in value):
         return [(f"{label} {k}", _line(one) or "empty") for k, one in _ends(value)]
     unit = "degC" if item.absolute else item.unit

@@ -39,11 +39,11 @@ def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
     """Return the rows that describe a rotor: with level I of API 617 where it is a compressor."""
     from ..scenes.solve_shaft import amplitude_unit
 
-    found = answer.threshold
+    found, first = answer.threshold, f"at {answer.campbell.speeds[0] * RPM:.6g} rpm"
     rows = [("rotor", f"{answer.mass:.6g} kg, {answer.states} states")]
-    rows += [(f"load on {name}", f"{np.hypot(*load):.6g} N") for name, load in answer.loads.items()]
-    rows += [(f"moment on {name}", f"{np.hypot(*one):.6g} N m") for name, one in answer.moments.items()]
-    rows += [(f"axial load on {name}", f"{one:.6g} N") for name, one in answer.axial_loads.items()]
+    rows += [(f"load on {name}", f"{np.hypot(*load):.6g} N {first}") for name, load in answer.loads.items()]
+    rows += [(f"moment on {name}", f"{np.hypot(*one):.6g} N m {first}") for name, one in answer.moments.items()]
+    rows += [(f"axial load on {name}", f"{one:.6g} N {first}") for name, one in answer.axial_loads.items()]
     rows += [
         (
             "critical speed",

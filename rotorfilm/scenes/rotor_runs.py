@@ -145,6 +145,7 @@ def prepared_run(scene: Scene) -> PreparedRun:
             "thrust must stand in an entry of shaft.bearings for a run, as the mass of its collar is a disk "
             "of the shaft, got [thrust] alone, whose film has no motion of its own"
         )
+    scene.required("operation", "a run over time, which begins at its speed")
     shared_tables.require_kind(scene.excitation, ("unbalance", "blade_loss", "run_up", "motor", "ground"))
     start = scene.excitation.start if isinstance(scene.excitation, shared_tables.BladeLossTable) else 0.0
     scene = after_loss(scene)

@@ -73,6 +73,9 @@ def test_what_does_not_move_is_refused(run):
     code, _, err = run("run", EXAMPLES / "bush_wear.toml")
     assert code == 2
     assert "bush_wear.toml: " in err
+    code, _, err = run("run", EXAMPLES / "compressor.toml")
+    assert code == 2
+    assert "operation is required for a run over time" in err
 
 
 SWING = 'excitation={ kind = "sine", load = "0.4 N", frequency = "200 rad/s" }'

@@ -470,6 +470,16 @@ def test_inputs_print_as_data_sheets():
     film = rotorfilm.JournalBearing(**BEARING)
     assert str(film).splitlines()[1] == "radius     50 mm"
     assert "<th>node</th>" in rotor._repr_html_()
+    pads = rotorfilm.TiltingPadBearing(
+        radius=0.04,
+        length=0.04,
+        assembled_clearance=7e-5,
+        extent=1.0,
+        viscosity=0.02,
+        pivots=rotorfilm.even_pivots(5),
+    )
+    assert str(pads).splitlines()[-2].strip() == "film"
+    assert str(pads).splitlines()[-1].split()[0] == "resolution"
 
 
 @pytest.mark.closed_form

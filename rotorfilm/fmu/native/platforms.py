@@ -122,7 +122,7 @@ def model_sources(kernels: Sequence[str], fmi_version: str) -> dict[str, bytes]:
     """Return of `native_sources` what a library with these kernels and one version of FMI needs.
 
     These are the files that define what others of them name, and the headers that they include. The list of
-    kernels names these alone.
+    kernels names those in these files alone, as a ball contact has the kernel of its law in it.
     """
     sources = _sources(Path(str(files(NATIVE))))
     units = [path for path in sources if path.endswith(".c")]
@@ -140,7 +140,8 @@ def model_sources(kernels: Sequence[str], fmi_version: str) -> dict[str, bytes]:
             ahead += [homes[symbol] for symbol in sources[path].named & homes.keys()]
     found = {path: sources[path].content for path in sorted(needed)}
     rows = found[KERNEL_LIST].decode().splitlines(keepends=True)
-    kept = tuple(f"RF_KERNEL({kernel}," for kernel in kernels)
+    units = [path.rpartition("/")[2] for path in found]
+    kept = tuple(f"RF_KERNEL({unit[7:-2]}," for unit in units if unit.startswith("kernel_"))
     found[KERNEL_LIST] = "".join(
         row for row in rows if row.startswith(kept) or not row.startswith("RF_KERNEL(")
     ).encode()
