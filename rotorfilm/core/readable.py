@@ -365,7 +365,7 @@ def as_data_sheet(cls: type[T]) -> type[T]:
 
 
 def sheet_rows(thing: Any) -> list[Row]:
-    """Return the rows of an input: all but plain defaults, what its pages show, and fields that repr hides."""
+    """Return the rows of an input: all but plain defaults, what its pages show, and what repr hides."""
     usual = {one.name: repr(one.default) for one in fields(thing)}
     hidden = {*getattr(thing, "_tabled", ()), *(one.name for one in fields(thing) if not one.repr)}
     items = items_of(thing, getattr(thing, "_shown", ()))

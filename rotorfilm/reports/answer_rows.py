@@ -41,9 +41,14 @@ def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
 
     found, first = answer.threshold, f"at {answer.campbell.speeds[0] * RPM:.6g} rpm"
     rows = [("rotor", f"{answer.mass:.6g} kg, {answer.states} states")]
-    rows += [(f"load on {name}", f"{np.hypot(*load):.6g} N {first}") for name, load in answer.loads.items()]
-    rows += [(f"moment on {name}", f"{np.hypot(*one):.6g} N m {first}") for name, one in answer.moments.items()]
-    rows += [(f"axial load on {name}", f"{one:.6g} N {first}") for name, one in answer.axial_loads.items()]
+    for kind, unit, held in (
+        ("load", "N", answer.loads),
+        ("moment", "N m", answer.moments),
+        ("axial load", "N", answer.axial_loads),
+    ):
+        rows += [
+            (f"{kind} on {name}", f"{np.linalg.norm(one):.6g} {unit} {first}") for name, one in held.items()
+        ]
     rows += [
         (
             "critical speed",
