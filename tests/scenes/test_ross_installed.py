@@ -360,7 +360,7 @@ def test_what_goes_to_ross_comes_back(tmp_path):
 
 
 def test_what_ross_cannot_take_is_refused(film):
-    with pytest.raises(InputError, match="bearing must be a LinearBearing or a TabulatedBearing"):
+    with pytest.raises(InputError, match="bearing must be a LinearBearing, a TabulatedBearing or a seal"):
         to_ross(film, 0)
     short = TabulatedBearing(speeds=[1.0, 2.0], stiffness=np.ones((2, 2, 2)), damping=np.ones((2, 2, 2)))
     with pytest.raises(InputError, match=r"speeds must be at least 4 numbers, .* got 2"):
