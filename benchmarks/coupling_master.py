@@ -13,10 +13,18 @@ from pathlib import Path
 import fmpy
 import numpy as np
 from fmpy.fmi2 import FMU2Slave
-from studies.master_cases import BEARING, ROTOR, STEP, PythonGaussSeidel, PythonSIExp3
+from studies.master_cases import (
+    BEARING,
+    ROTOR,
+    STEP,
+    PythonGaussSeidel,
+    PythonNewton,
+    PythonSIExp3,
+    PythonSIMemory,
+)
 
 from rotorfilm.core import CouplingWarning
-from rotorfilm.cosim import GaussSeidel, SIExp3, cosimulate
+from rotorfilm.cosim import GaussSeidel, Newton, SIExp3, SIMemory, cosimulate
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import LawRotor
 
@@ -95,6 +103,8 @@ def main():
             ("SI-exp3, two FMUs", law, film, SIExp3(), PythonSIExp3()),
             ("SI-exp3, rotor integrated", rotor, film, SIExp3(), PythonSIExp3()),
             ("SI-exp3, two models", ROTOR, BEARING, SIExp3(), PythonSIExp3()),
+            ("Newton, two FMUs", rotor, film, Newton(), PythonNewton()),
+            ("SI-memory, two FMUs", law, film, SIMemory(), PythonSIMemory()),
         ]
         print(f"CPU time of a macro step [us], of {steps}")
         print(f"{'Gauss-Seidel, fmpy by hand':28s} {1e6 * by_fmpy / steps:9.1f}")

@@ -6,7 +6,7 @@ import numpy as np
 
 from rotorfilm import JournalBearing
 from rotorfilm.bearings.journal import MapFilm
-from rotorfilm.cosim import GaussSeidel, Jacobi, SIExp, SIExp3
+from rotorfilm.cosim import Adaptive, GaussSeidel, Jacobi, Newton, SIExp, SIExp3, SIMemory
 from rotorfilm.rotors import RigidRotor, SpeedProfile
 
 SPEED, CLEARANCE = 157.0, 1e-4
@@ -35,12 +35,32 @@ class PythonSIExp3(SIExp3):
     """The same."""
 
 
+@dataclass(frozen=True)
+class PythonSIMemory(SIMemory):
+    """The same."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PythonNewton(Newton):
+    """The same."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PythonAdaptive(Adaptive):
+    """The same."""
+
+
 EXPLICIT = [
     (kind(degree=degree), plain(degree=degree))
     for kind, plain in ((GaussSeidel, PythonGaussSeidel), (Jacobi, PythonJacobi))
     for degree in range(3)
 ]
-IMPLICIT = [(SIExp(), PythonSIExp()), (SIExp3(), PythonSIExp3())]
+IMPLICIT = [(SIExp(), PythonSIExp()), (SIExp3(), PythonSIExp3()), (SIMemory(), PythonSIMemory())]
+REPEATING = [
+    (Newton(), PythonNewton()),
+    (Adaptive(tolerance=1e-4), PythonAdaptive(tolerance=1e-4)),
+    (Adaptive(scheme=SIExp()), PythonAdaptive(scheme=SIExp())),
+]
 
 
 def rotor_at(eccentricity, unbalance, **changes):

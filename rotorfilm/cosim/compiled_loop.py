@@ -47,6 +47,9 @@ PATIENCE = 0.05
 EXTRA = 8
 """Most further points of a gentle start."""
 
+TANGENTIAL: dict[type, int] = {schemes.SIExp: 0, schemes.SIExp3: 1, schemes.SIMemory: 2}
+"""Points behind the latest one that laws of the films' tangents go through."""
+
 
 class CompiledRun:
     """The macro steps of a run in C, in chunks, between steps in Python where the rotor needs them.
@@ -58,7 +61,7 @@ class CompiledRun:
     rotor : CompiledPartner
     films : list of CompiledPartner
         Films in the order of the stations.
-    plan : mapping of str to int
+    plan : mapping of str to number
         The scheme; see `plan_of`.
     record : Record
     watch : Watch
@@ -72,7 +75,7 @@ class CompiledRun:
         partners: Partners,
         rotor: CompiledPartner,
         films: list[CompiledPartner],
-        plan: Mapping[str, int],
+        plan: Mapping[str, float],
         record: Record,
         watch: Watch,
         macro_step: float,
@@ -85,6 +88,7 @@ class CompiledRun:
         m, n = record.size, len(rotor.states)
         self._shapes = ((2 * m * m + m,), (n + 2 * m, n + m))
         most = (MOST_CHUNK + EXTRA) // CHECK + 2
+        self._sensitivity = np.zeros((2 * m, m + 1))
         self._checked = np.zeros(most, dtype=np.int64)
         self._check_tangents = np.zeros((most, *self._shapes[0]))
         self._check_slopes = np.zeros((most, *self._shapes[1]))
@@ -108,6 +112,8 @@ class CompiledRun:
             points=points.ctypes.data,
             macro_step=macro_step,
             every=CHECK,
+            sensitivity=self._sensitivity.ctypes.data,
+            kept=self._room(n),
             checked=self._checked.ctypes.data,
             check_tangents=self._check_tangents.ctypes.data,
             check_slopes=self._check_slopes.ctypes.data,
@@ -167,6 +173,7 @@ class CompiledRun:
         c, record = self._struct, self.record
         record.require_room(chunk + EXTRA)
         self._bind()
+        c.record.room = record.count + chunk + EXTRA  # what is kept of each point has no more
         c.step, c.t, c.checks = step, t, 0
         work = self._partners.work
         for k, name in enumerate(WORK):
@@ -212,7 +219,7 @@ class CompiledRun:
     def _bind(self) -> None:
         """Tell where the arrays of the record are."""
         c, record = self._struct.record, self.record
-        c.count, c.room = record.count, len(record.time)
+        c.count = record.count
         for name in ("time", "outputs", "force", "tangents", "work"):
             setattr(c, name, getattr(record, name).ctypes.data)
         if self._partners.laws is not None:
@@ -307,8 +314,8 @@ def _law(row: Array, m: int) -> ForceLaw:
     return ForceLaw(float(row[0]), force, slope, curvature, K.reshape(m, m), C.reshape(m, m), q, v)
 
 
-def plan_of(scheme: schemes.Scheme) -> dict[str, int] | None:
-    """Return how the loop in C takes a scheme (couple.h); None if it does not, as one that goes back."""
+def plan_of(scheme: schemes.Scheme) -> dict[str, float] | None:
+    """Return how the loop in C takes a scheme (couple.h); None of one that it does not know."""
     kind = type(scheme)
     if isinstance(scheme, schemes.GaussSeidel | schemes.Jacobi) and kind in (
         schemes.GaussSeidel,
@@ -316,8 +323,15 @@ def plan_of(scheme: schemes.Scheme) -> dict[str, int] | None:
     ):
         named = "RF_JACOBI" if kind is schemes.Jacobi else "RF_GAUSS_SEIDEL"
         return {"scheme": constant(named), "degree": scheme.degree, "gentle": scheme.degree > 1}
-    if kind in (schemes.SIExp, schemes.SIExp3):
-        return {"scheme": constant("RF_TANGENTIAL"), "third": kind is schemes.SIExp3}
+    if kind in TANGENTIAL:
+        gentle = kind is schemes.SIMemory
+        return {"scheme": constant("RF_TANGENTIAL"), "behind": TANGENTIAL[kind], "gentle": gentle}
+    if isinstance(scheme, schemes.Newton) and kind is schemes.Newton:
+        return {"scheme": constant("RF_NEWTON"), "tolerance": scheme.tolerance, "most": scheme.most}
+    if isinstance(scheme, schemes.Adaptive) and kind is schemes.Adaptive:
+        own = None if isinstance(scheme.scheme, schemes.SIMemory) else plan_of(scheme.scheme)
+        if own is not None and own["scheme"] == constant("RF_TANGENTIAL"):
+            return {**own, "adaptive": 1, "tolerance": scheme.tolerance}
     return None
 
 

@@ -147,6 +147,8 @@ class FmuSlave(Slave):
             Call.TAKE: "reading outputs",
             Call.STRIDE: f"the step from t = {t:.9g} s",
             Call.SLOPE: "reading derivatives",
+            Call.SAVE: "saving its state",
+            Call.RESTORE: "restoring its state",
         }
         self._calling(doing[call], self._instance.fail, call.name.lower(), status)
 

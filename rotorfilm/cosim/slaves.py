@@ -135,6 +135,8 @@ class Call(IntEnum):
     SLOPE = 3
     MOVE = 4
     RATE = 5
+    SAVE = 6
+    RESTORE = 7
 
 
 class Slave:

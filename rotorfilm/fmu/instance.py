@@ -106,6 +106,9 @@ SPELLED = {
         "rate": "getDerivatives",
         "update": "newDiscreteStates",
         "deserialize": "deSerializeFMUstate",
+        "save": "getFMUstate",
+        "restore": "setFMUstate",
+        "forget": "freeFMUstate",
         "output_slope": "getRealOutputDerivatives",
     },
     "3.0": {
@@ -114,6 +117,9 @@ SPELLED = {
         "rate": "getContinuousStateDerivatives",
         "update": "updateDiscreteStates",
         "deserialize": "deserializeFMUState",
+        "save": "getFMUState",
+        "restore": "setFMUState",
+        "forget": "freeFMUState",
         "output_slope": "getOutputDerivatives",
     },
 }
@@ -260,7 +266,7 @@ class Instance:
 
     def entry(self) -> tuple[int, int, dict[str, int | None]]:
         """Return the version, the component and the addresses of what a loop in C calls, if it is there."""
-        library, names = self.fmu.dll, ("put", "take", "rate", *CALLED)
+        library, names = self.fmu.dll, ("put", "take", "rate", "save", "restore", "forget", *CALLED)
         there = [name for name in names if hasattr(library, self._spelled(name))]
         found = {name: cast(self.function(name), c_void_p).value for name in there}
         return int(self._version[0]), self.fmu.component, found
@@ -275,7 +281,7 @@ class Instance:
 
     def step(self, t: float, dt: float) -> None:
         """Advance from t to t + dt [s] (Co-Simulation)."""
-        self.fmu.doStep(t, dt)
+        self.fmu.doStep(t, dt, noSetFMUStatePriorToCurrentPoint=False)
 
     def move(self, t: float, states: Array) -> None:
         """Go to a time [s] and a state (Model Exchange)."""

@@ -3,17 +3,26 @@
 #include <math.h>
 #include <string.h>
 
+#include "../solvers/dense.h"
+
 #define FIRST (1.0 / 63.0) /* first step of a gentle start, in macro steps */
+
+/* As in cosim/schemes.py, with the same names. */
+#define PROBE 1e3
+#define SAFETY 0.8
+#define LEAST 0.3
+#define MOST 2.0
+#define GIVE_UP 1e-6
 
 /* What one step has computed before it is a point of the record. */
 typedef struct rf_found {
-    double *motion, *outputs, *force, *law, *values, *whole, *column;
+    double *motion, *outputs, *force, *law, *values, *whole, *column, *held, *residual, *feedback;
 } rf_found;
 
 size_t rf_coupling_work(const rf_coupling *c, size_t widest)
 {
     const size_t m = c->record.m;
-    return 2 * m + 1 + c->record.columns + m + RF_LAW_SIZE(m) + widest + 10 + widest;
+    return 2 * m + 1 + c->record.columns + m + RF_LAW_SIZE(m) + 2 * widest + 10 + 2 * m + m * m;
 }
 
 static rf_found placed(const rf_coupling *c)
@@ -26,7 +35,10 @@ static rf_found placed(const rf_coupling *c)
     f.law = f.force + m;
     f.whole = f.law + RF_LAW_SIZE(m);
     f.column = f.whole + 10;
-    f.values = f.column + 2;
+    f.held = f.column + 2;
+    f.residual = f.held + m;
+    f.feedback = f.residual + m;
+    f.values = f.feedback + m * m;
     return f;
 }
 
@@ -156,7 +168,7 @@ static void check(rf_coupling *c, const rf_found *f)
 static void make_law(const rf_coupling *c, rf_law *law)
 {
     if (c->scheme == RF_TANGENTIAL)
-        rf_tangential_law(&c->record, c->third, law);
+        rf_tangential_law(&c->record, c->behind, law);
     else
         rf_extrapolated_law(&c->record, c->degree, law);
 }
@@ -209,23 +221,211 @@ static int in_parallel(rf_coupling *c, const rf_found *f, const rf_law *law, dou
     return ended ? ended : read_rotor(c, f);
 }
 
-static int keep(rf_coupling *c, const rf_found *f, double time)
+/* Rotor, films, and their derivatives where the next point of the record will be. */
+static int by_law(rf_coupling *c, const rf_found *f, const rf_law *law, double t, double dt)
 {
-    rf_record *r = &c->record;
-    const size_t n = (size_t)r->count, m = r->m, columns = 2 * m * m + m;
-    if (r->derived) {
-        const int ended = derive(c, f, r->tangents + n * columns);
-        if (ended)
-            return ended;
-    }
-    r->time[n] = time;
-    memcpy(r->outputs + n * r->columns, f->outputs, r->columns * sizeof(double));
-    memcpy(r->force + n * m, f->force, m * sizeof(double));
-    ++r->count;
+    const rf_record *r = &c->record;
+    const int ended = c->scheme == RF_JACOBI ? in_parallel(c, f, law, t, dt) : in_turn(c, f, law, t, dt);
+    if (ended || !r->derived)
+        return ended;
+    return derive(c, f, r->tangents + (size_t)r->count * (2 * r->m * r->m + r->m));
+}
+
+/* What was found, where the next point of the record will be. */
+static void place(rf_coupling *c, const rf_found *f, double time)
+{
+    const rf_record *r = &c->record;
+    r->time[r->count] = time;
+    memcpy(r->outputs + (size_t)r->count * r->columns, f->outputs, r->columns * sizeof(double));
+    memcpy(r->force + (size_t)r->count * r->m, f->force, r->m * sizeof(double));
+}
+
+static void keep(rf_coupling *c, const rf_found *f, double time)
+{
+    place(c, f, time);
+    ++c->record.count;
     check(c, f);
     ++c->done[0];
-    memcpy(r->work + 5 * n, c->done, sizeof c->done);
+    memcpy(c->record.work + 5 * (c->record.count - 1), c->done, sizeof c->done);
+}
+
+/* The state of all before a step that may be repeated, and the way back. */
+static int save(rf_coupling *c)
+{
+    rf_rotor *rotor = c->rotor;
+    if (rotor->mode == RF_INTEGRATED)
+        memcpy(c->kept, rotor->x, rotor->partner->states * sizeof(double));
+    else if (rf_save_partner(rotor->partner))
+        return failed(c, RF_ROTOR_FAILED, -1);
+    for (int32_t k = 0; k < c->stations; ++k)
+        if (rf_save_partner(c->films[k].partner))
+            return failed(c, RF_FILM_FAILED, k);
     return RF_COUPLED;
+}
+
+static int restore(rf_coupling *c)
+{
+    rf_rotor *rotor = c->rotor;
+    ++c->done[4];
+    if (rotor->mode == RF_INTEGRATED)
+        memcpy(rotor->x, c->kept, rotor->partner->states * sizeof(double));
+    else if (rf_restore_partner(rotor->partner))
+        return failed(c, RF_ROTOR_FAILED, -1);
+    for (int32_t k = 0; k < c->stations; ++k)
+        if (rf_restore_partner(c->films[k].partner))
+            return failed(c, RF_FILM_FAILED, k);
+    return RF_COUPLED;
+}
+
+/* Schemes that go back: a step that they cannot end is left to Python, which says why. */
+
+/* d(motion)/d(held force) from trial steps, kept while the step stays. */
+static int probe(rf_coupling *c, const rf_found *f, rf_law *law, double t, double dt)
+{
+    const size_t m = c->record.m;
+    if (fabs(dt - c->probed) <= 1e-9 * dt)
+        return RF_COUPLED;
+    c->probed = 0.0;
+    for (size_t k = 0; k <= m; ++k) {
+        memset(f->held, 0, m * sizeof(double));
+        if (k > 0)
+            f->held[k - 1] = PROBE;
+        rf_held_law(&c->record, f->held, law);
+        int ended = save(c);
+        if (!ended)
+            ended = drive(c, law, t, dt);
+        if (!ended)
+            ++c->done[3], ended = read_rotor(c, f);
+        if (!ended)
+            ended = restore(c);
+        if (ended)
+            return ended;
+        place_motion(&c->record, f->outputs, f->motion);
+        for (size_t i = 0; i < 2 * m; ++i) /* the motion without force waits in the last column */
+            if (k > 0)
+                c->sensitivity[i * m + k - 1] = f->motion[i] / PROBE - c->sensitivity[2 * m * m + i];
+            else
+                c->sensitivity[2 * m * m + i] = f->motion[i] / PROBE;
+    }
+    c->probed = dt;
+    return RF_COUPLED;
+}
+
+/* Newton's step of the held force: the films' tangents through the rotor's sensitivity. */
+static void correct(const rf_coupling *c, const rf_found *f)
+{
+    const rf_record *r = &c->record;
+    const size_t m = r->m;
+    const double *tangents = r->tangents + (size_t)r->count * (2 * m * m + m);
+    for (size_t i = 0; i < m; ++i)
+        for (size_t j = 0; j < m; ++j) {
+            double sum = 0.0;
+            for (size_t k = 0; k < m; ++k)
+                sum += tangents[i * m + k] * c->sensitivity[k * m + j]
+                       + tangents[(m + i) * m + k] * c->sensitivity[(m + k) * m + j];
+            f->feedback[i * m + j] = (i == j ? 1.0 : 0.0) + 0.5 * sum;
+        }
+    rf_eliminate(m, f->feedback, 1, f->residual);
+    for (size_t i = 0; i < m; ++i)
+        f->held[i] -= f->residual[i];
+}
+
+/* The force held at the mean of both ends of the step. */
+static int by_newton(rf_coupling *c, const rf_found *f, rf_law *law, double t, double dt)
+{
+    const rf_record *r = &c->record;
+    const size_t m = r->m, now = (size_t)r->count - 1;
+    const double *force = r->force + now * m;
+    int ended = probe(c, f, law, t, dt);
+    const double ahead = now > 0 ? (t + 0.5 * dt - r->time[now]) / (r->time[now] - r->time[now - 1]) : 0.0;
+    for (size_t i = 0; i < m; ++i)
+        f->held[i] = now > 0 ? force[i] + ahead * (force[i] - force[i - m]) : force[i];
+    for (int32_t count = 0; !ended && count < c->most; ++count) {
+        double size = 0.0, left = 0.0;
+        if ((ended = save(c)))
+            break;
+        rf_held_law(r, f->held, law);
+        if ((ended = by_law(c, f, law, t, dt)))
+            break;
+        for (size_t i = 0; i < m; ++i) {
+            f->residual[i] = f->held[i] - 0.5 * (force[i] + f->force[i]);
+            left = fmax(left, fabs(f->residual[i]));
+            size = fmax(size, fabs(f->held[i]) + fabs(force[i]));
+        }
+        if (left <= c->tolerance * size)
+            return RF_COUPLED;
+        ended = restore(c);
+        correct(c, f);
+    }
+    return ended ? ended : RF_ROTOR_WAITING;
+}
+
+/* The error of the force at a point of the record, in tolerances. */
+static double error_at(const rf_coupling *c, const rf_found *f, int64_t point)
+{
+    const rf_record *r = &c->record;
+    const size_t m = r->m;
+    const double *now = r->force + (size_t)point * m;
+    double left = 0.0, found = 0.0, before = 0.0;
+    rf_defect(r, point - 1, point, f->residual);
+    if (c->behind && point > 1) {
+        const double ratio =
+            (r->time[point] - r->time[point - 1]) / (r->time[point - 1] - r->time[point - 2]);
+        rf_defect(r, point - 2, point - 1, f->held);
+        for (size_t i = 0; i < m; ++i)
+            f->residual[i] -= ratio * ratio * f->held[i];
+    }
+    for (size_t i = 0; i < m; ++i) {
+        left += f->residual[i] * f->residual[i];
+        found += now[i] * now[i];
+        before += (now - m)[i] * (now - m)[i];
+    }
+    const double size = 0.5 * (sqrt(found) + sqrt(before));
+    return size > 0.0 ? sqrt(left) / (c->tolerance * size) : 0.0;
+}
+
+/* The factor to the next step from an error in tolerances. */
+static double factor_of(const rf_coupling *c, double error)
+{
+    return SAFETY * pow(error, c->behind ? -1.0 / 3.0 : -0.5);
+}
+
+/* A step of the length that the error asks for, dt at most. */
+static int adapted(rf_coupling *c, const rf_found *f, rf_law *law, double t, double *dt)
+{
+    const rf_record *r = &c->record;
+    const double shortest = GIVE_UP * *dt;
+    if (r->count > 1) {
+        const double last = r->time[r->count - 1] - r->time[r->count - 2];
+        const double wanted = factor_of(c, fmax(error_at(c, f, r->count - 1), 1e-12));
+        *dt = fmin(*dt, last * fmin(fmax(wanted, LEAST), MOST));
+    }
+    while (*dt >= shortest) {
+        int ended = save(c);
+        make_law(c, law);
+        if (!ended)
+            ended = by_law(c, f, law, t, *dt);
+        if (ended)
+            return ended;
+        place(c, f, t + *dt);
+        const double error = error_at(c, f, r->count);
+        if (error <= 1.0)
+            return RF_COUPLED;
+        if ((ended = restore(c)))
+            return ended;
+        *dt *= fmax(LEAST, factor_of(c, error));
+    }
+    return RF_ROTOR_WAITING;
+}
+
+static int one_step(rf_coupling *c, const rf_found *f, rf_law *law, double t, double *dt)
+{
+    if (c->adaptive)
+        return adapted(c, f, law, t, dt);
+    if (c->scheme == RF_NEWTON)
+        return by_newton(c, f, law, t, *dt);
+    make_law(c, law);
+    return by_law(c, f, law, t, *dt);
 }
 
 /* Parabolas need a past: a gentle start doubles a short step. */
@@ -242,35 +442,46 @@ static double length_of(const rf_coupling *c, double dt)
 
 static int advance(rf_coupling *c, const rf_found *f, rf_law *law, double end)
 {
+    int64_t done[5];
     while (c->t < end) {
-        const double dt = length_of(c, end - c->t), time = c->t + dt;
+        double dt = length_of(c, end - c->t);
         if (c->record.count == c->record.room)
             return RF_FULL;
-        c->reached = time;
-        make_law(c, law);
-        int ended = c->scheme == RF_JACOBI ? in_parallel(c, f, law, c->t, dt) : in_turn(c, f, law, c->t, dt);
-        if (!ended)
-            ended = keep(c, f, time);
+        c->reached = c->t + dt;
+        memcpy(done, c->done, sizeof done);
+        const int ended = one_step(c, f, law, c->t, &dt);
+        if (ended == RF_ROTOR_WAITING)
+            memcpy(c->done, done, sizeof done);
         if (ended)
             return ended;
+        const double time = c->t + dt;
+        keep(c, f, time);
         c->t = time >= end - 1e-9 * c->macro_step ? end : time;
     }
     return RF_COUPLED;
+}
+
+static void forget(rf_coupling *c)
+{
+    rf_forget_partner(c->rotor->partner);
+    for (int32_t k = 0; k < c->stations; ++k)
+        rf_forget_partner(c->films[k].partner);
 }
 
 int rf_couple(rf_coupling *c, int64_t steps)
 {
     const rf_found f = placed(c);
     rf_law law;
+    int ended = RF_COUPLED;
     rf_place_law(&law, c->record.m, f.law);
-    while (c->step < steps) {
+    while (!ended && c->step < steps) {
         const double begin = c->points[c->step], end = begin + (c->points[c->step + 1] - begin);
         if (c->t < begin)
             c->t = begin;
-        const int ended = advance(c, &f, &law, end);
-        if (ended)
-            return ended;
-        c->t = c->points[++c->step];
+        ended = advance(c, &f, &law, end);
+        if (!ended)
+            c->t = c->points[++c->step];
     }
-    return RF_COUPLED;
+    forget(c);
+    return ended;
 }

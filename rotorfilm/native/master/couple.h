@@ -4,7 +4,7 @@
 
 #include "rotor.h"
 
-enum { RF_GAUSS_SEIDEL, RF_JACOBI, RF_TANGENTIAL };
+enum { RF_GAUSS_SEIDEL, RF_JACOBI, RF_TANGENTIAL, RF_NEWTON };
 
 /* The film of a station. */
 typedef struct rf_station {
@@ -23,13 +23,18 @@ typedef enum rf_coupled {
     RF_ROTOR_FAILED = 1,
     RF_FILM_FAILED = 2,   /* `who` says which */
     RF_NOT_NUMBERS = 3,   /* outputs of the rotor (`who` = -1) or of a film are not finite */
-    RF_ROTOR_WAITING = 4, /* the rotor cannot be integrated here, or a call failed; all are where they were */
+    RF_ROTOR_WAITING = 4, /* a step that cannot be made here, as of the rotor; all are where they were */
     RF_FULL = 5           /* the record has no room */
 } rf_coupled;
 
 typedef struct rf_coupling {
-    int32_t scheme, degree, gentle, third; /* gentle: short steps at the start */
+    int32_t scheme, degree, gentle, behind; /* gentle: short steps at the start; behind: see rf_tangential_law */
     int32_t stations, who;
+    int32_t adaptive, most; /* steps of the length that the error asks for; most iterations of Newton's method */
+    double tolerance;       /* of both */
+    double probed;          /* length of the step of which the sensitivity of the rotor is known */
+    double *sensitivity;    /* d(position, velocity)/d(held force), (2 m, m) */
+    double *kept;           /* the state of a rotor that is integrated here, before a step that may be repeated */
     rf_rotor *rotor;
     rf_station *films;
     rf_record record;

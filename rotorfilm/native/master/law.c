@@ -92,29 +92,35 @@ static void take_motion(const rf_record *r, const double *outputs, rf_law *law)
     }
 }
 
-/* What the tangents at the latest point leave of the force at the one before, per squared time. */
-static void take_defect(const rf_record *r, const double *by_speed, double dt, rf_law *law)
+void rf_held_law(const rf_record *r, const double *force, rf_law *law)
 {
-    const size_t m = r->m, now = (size_t)r->count - 1;
-    const double *old = r->outputs + (now - 1) * r->columns, *f = r->force + now * m;
-    const double speed = rf_speed_of(r, (int64_t)now - 1) - rf_speed_of(r, (int64_t)now);
+    memset(law->force, 0, RF_LAW_SIZE(r->m) * sizeof(double));
+    law->start = r->time[r->count - 1];
+    memcpy(law->force, force, r->m * sizeof(double));
+}
+
+void rf_defect(const rf_record *r, int64_t before, int64_t now, double *left)
+{
+    const size_t m = r->m;
+    const double *old = r->outputs + (size_t)before * r->columns, *new = r->outputs + (size_t)now * r->columns;
+    const double *stiffness = r->tangents + (size_t)now * (2 * m * m + m), *damping = stiffness + m * m;
+    const double *by_speed = damping + m * m, speed = rf_speed_of(r, before) - rf_speed_of(r, now);
     for (size_t i = 0; i < m; ++i) {
         double pull = 0.0, drag = 0.0;
         for (size_t j = 0; j < m; ++j) {
-            pull += law->stiffness[i * m + j] * (old[r->position[j]] - law->position[j]);
-            drag += law->damping[i * m + j] * (old[r->velocity[j]] - law->velocity[j]);
+            pull += stiffness[i * m + j] * (old[r->position[j]] - new[r->position[j]]);
+            drag += damping[i * m + j] * (old[r->velocity[j]] - new[r->velocity[j]]);
         }
-        law->curvature[i] = (f[i - m] - f[i] + pull + drag - speed * by_speed[i]) / (dt * dt);
+        left[i] = r->force[(size_t)before * m + i] - r->force[(size_t)now * m + i] + pull + drag
+                  - speed * by_speed[i];
     }
 }
 
-void rf_tangential_law(const rf_record *r, int third, rf_law *law)
+void rf_tangential_law(const rf_record *r, int behind, rf_law *law)
 {
     const size_t m = r->m, now = (size_t)r->count - 1;
     const double *tangents = r->tangents + now * (2 * m * m + m), *by_speed = tangents + 2 * m * m;
-    memset(law->force, 0, RF_LAW_SIZE(m) * sizeof(double));
-    law->start = r->time[now];
-    memcpy(law->force, r->force + now * m, m * sizeof(double));
+    rf_held_law(r, r->force + now * m, law);
     memcpy(law->stiffness, tangents, m * m * sizeof(double));
     memcpy(law->damping, tangents + m * m, m * m * sizeof(double));
     take_motion(r, r->outputs + now * r->columns, law);
@@ -122,8 +128,20 @@ void rf_tangential_law(const rf_record *r, int third, rf_law *law)
         return;
     const double dt = r->time[now] - r->time[now - 1];
     const double rate = (rf_speed_of(r, (int64_t)now) - rf_speed_of(r, (int64_t)now - 1)) / dt;
+    if (behind == 1) {
+        rf_defect(r, (int64_t)now - 1, (int64_t)now, law->curvature);
+        for (size_t i = 0; i < m; ++i)
+            law->curvature[i] /= dt * dt;
+    } else if (behind == 2 && now > 1) { /* a T + b T^2 at both */
+        const double first = r->time[now - 2] - r->time[now], last = -dt;
+        rf_defect(r, (int64_t)now - 2, (int64_t)now, law->slope);
+        rf_defect(r, (int64_t)now - 1, (int64_t)now, law->curvature);
+        for (size_t i = 0; i < m; ++i) {
+            const double far = law->slope[i] / first, near = law->curvature[i] / last;
+            law->curvature[i] = (near - far) / (last - first);
+            law->slope[i] = near - law->curvature[i] * last;
+        }
+    }
     for (size_t i = 0; i < m; ++i)
-        law->slope[i] = rate * by_speed[i];
-    if (third)
-        take_defect(r, by_speed, dt, law);
+        law->slope[i] += rate * by_speed[i];
 }

@@ -33,8 +33,15 @@ void rf_law_at(const rf_law *law, double t, const double *position, const double
 /* Forces extrapolated by a polynomial of this degree, or less at the start. */
 void rf_extrapolated_law(const rf_record *r, int degree, rf_law *law);
 
-/* The law of the tangents at the latest point; with the parabola that the last step left over, if `third`. */
-void rf_tangential_law(const rf_record *r, int third, rf_law *law);
+/* A force held from the latest point on. */
+void rf_held_law(const rf_record *r, const double *force, rf_law *law);
+
+/* The law of the tangents at the latest point; with a parabola through what they leave of the force at so many
+   points before, 0 to 2. */
+void rf_tangential_law(const rf_record *r, int behind, rf_law *law);
+
+/* What the tangents at a point leave of the force at one before, (m,). */
+void rf_defect(const rf_record *r, int64_t before, int64_t now, double *left);
 
 /* Positions, velocities and speed (2 m + 1 numbers) extrapolated to a time. */
 void rf_motion_ahead(const rf_record *r, int degree, double t, double *motion);

@@ -44,10 +44,10 @@ int rf_stride(rf_partner *p, double t, double dt)
     fmi3Boolean event, terminate, early;
     fmi3Float64 reached;
     if (p->kind == RF_IS_FMI2)
-        return answered(p, RF_STRIDE, ((fmi2DoStepTYPE *)p->stride)(p->component, t, dt, fmi2True));
+        return answered(p, RF_STRIDE, ((fmi2DoStepTYPE *)p->stride)(p->component, t, dt, fmi2False));
     if (p->kind == RF_IS_FMI3)
         return answered(p, RF_STRIDE,
-                        ((fmi3DoStepTYPE *)p->stride)(p->component, t, dt, fmi3True, &event, &terminate,
+                        ((fmi3DoStepTYPE *)p->stride)(p->component, t, dt, fmi3False, &event, &terminate,
                                                       &early, &reached));
     ((rf_own *)p->component)->t = t + dt; /* it has no states to be stepped */
     return answered(p, RF_STRIDE, 0);
@@ -107,4 +107,33 @@ int rf_rate(rf_partner *p, double *rates)
         return answered(p, RF_RATE, ((fmi3GetContinuousStateDerivativesTYPE *)p->rate)(p->component, rates,
                                                                                      p->states));
     return answered(p, RF_RATE, rf_own_rate(p->component, rates));
+}
+
+int rf_save_partner(rf_partner *p)
+{
+    if (p->kind == RF_IS_FMI2)
+        return answered(p, RF_SAVE, ((fmi2GetFMUstateTYPE *)p->save)(p->component, &p->saved));
+    if (p->kind == RF_IS_FMI3)
+        return answered(p, RF_SAVE, ((fmi3GetFMUStateTYPE *)p->save)(p->component, &p->saved));
+    return 0;
+}
+
+int rf_restore_partner(rf_partner *p)
+{
+    if (p->kind == RF_IS_FMI2)
+        return answered(p, RF_RESTORE, ((fmi2SetFMUstateTYPE *)p->restore)(p->component, p->saved));
+    if (p->kind == RF_IS_FMI3)
+        return answered(p, RF_RESTORE, ((fmi3SetFMUStateTYPE *)p->restore)(p->component, p->saved));
+    return 0;
+}
+
+void rf_forget_partner(rf_partner *p)
+{
+    if (!p->saved)
+        return;
+    if (p->kind == RF_IS_FMI2)
+        ((fmi2FreeFMUstateTYPE *)p->forget)(p->component, &p->saved);
+    else
+        ((fmi3FreeFMUStateTYPE *)p->forget)(p->component, &p->saved);
+    p->saved = NULL;
 }

@@ -10,7 +10,9 @@
 enum { RF_IS_FMI2, RF_IS_FMI3, RF_IS_KERNEL };
 
 /* What is called, and counted. */
-typedef enum rf_call { RF_PUT, RF_TAKE, RF_STRIDE, RF_SLOPE, RF_MOVE, RF_RATE, RF_CALLS } rf_call;
+typedef enum rf_call {
+    RF_PUT, RF_TAKE, RF_STRIDE, RF_SLOPE, RF_MOVE, RF_RATE, RF_SAVE, RF_RESTORE, RF_CALLS
+} rf_call;
 
 /* A kernel with its numbers. Its inputs are references to be put, its outputs to be taken; of slopes, outputs
    come before derivatives, and states before inputs. */
@@ -38,6 +40,10 @@ typedef struct rf_partner {
     void (*set_time)(void);
     void (*set_states)(void);
     void (*rate)(void);
+    void (*save)(void);
+    void (*restore)(void);
+    void (*forget)(void);
+    void *saved; /* state of an FMU that can go back; a kernel that is stepped has none */
     size_t states;
     int64_t calls[RF_CALLS];
 } rf_partner;
@@ -53,6 +59,11 @@ int rf_slopes(rf_partner *p, const uint32_t *unknowns, size_t rows, const uint32
 /* Of rotors that the loop integrates: go to a time and a state; the rates there. */
 int rf_move(rf_partner *p, double t, const double *x);
 int rf_rate(rf_partner *p, double *rates);
+
+/* Keep the state at present in place of the one kept before; go back to it; forget it. */
+int rf_save_partner(rf_partner *p);
+int rf_restore_partner(rf_partner *p);
+void rf_forget_partner(rf_partner *p);
 
 /* A kernel with these tables, which outlive it, and parameters; NULL with the message where they do not fit. */
 RF_EXPORT_MASTER rf_own *rf_open_kernel(const char *name, const rf_tables *tables, const double *parameters,
