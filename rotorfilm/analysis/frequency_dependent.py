@@ -13,14 +13,14 @@ from scipy.optimize import brentq
 from ..core.dynamic_stiffness import DynamicStiffness, InertialStiffness, states_rest, stiffnesses
 from ..core.errors import ConvergenceError
 from ..core.model import Array
-from ..core.port import Bearings, Complex, freedoms_of
+from ..core.port import Complex, freedoms_of
 from ..core.results import Coefficients, FrequencyDependentCoefficients, InertialCoefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from . import rotor_matrices
 from .coefficients import GROWTH_ROUNDOFF
 from .modal_reduction import all_rows, models, usual_frequency
-from .rotor_equilibrium import RotorEquilibrium, rest
+from .rotor_equilibrium import Rests, RotorEquilibrium
 
 REACH = 20.0
 """Frequency / speed up to which exponents are told apart in the phase; few faster ones feel the oil."""
@@ -31,25 +31,22 @@ MOVED = 1e-2
 _REAL = 1e-8
 
 
-def frequency_dependent_motion(
-    structure: Structure, at: RotorEquilibrium, frequency: float, value: complex, shape: np.ndarray
-) -> tuple[complex, np.ndarray, np.ndarray] | None:
-    """Return the motion on frequency-dependent films next to one on others; None for none.
+def frequency_dependent_motions(
+    structure: Structure, at: RotorEquilibrium, frequency: float, values: np.ndarray, shapes: np.ndarray
+) -> list[tuple[complex, np.ndarray, np.ndarray] | None]:
+    """Return the motions on frequency-dependent films next to those on others (m,), (m, N); None for none.
 
     That is s [1/s] and its vectors, shape (N,): L(s) right = 0, left* L(s) = 0. A motion that decays faster
     than it turns may have no other next to it: the film's own exponents are many there.
-
-    Raises
-    ------
-    ConvergenceError
-        If there is none next to a motion that turns faster than it decays, or grows.
     """
-    try:
-        s, right, left = rotor_matrices.whirl_near(structure, at, frequency, value, shape)
-    except ConvergenceError:
-        if value.imag > -value.real:
-            raise
-        return None
+    if not len(values):
+        return []
+    found = rotor_matrices.whirls_near(structure, at, frequency, values, shapes)
+    return [_upper(complex(s), *ends) if ended else None for s, *ends, ended in zip(*found, strict=True)]
+
+
+def _upper(s: complex, right: np.ndarray, left: np.ndarray) -> tuple[complex, np.ndarray, np.ndarray]:
+    """Return the motion of a pair that turns forward in time, or one whose exponent is real."""
     if abs(s.imag) <= _REAL * abs(s):
         return complex(s.real, 0.0), right, left
     return (s.conjugate(), right.conj(), left.conj()) if s.imag < 0.0 else (s, right, left)
@@ -130,18 +127,18 @@ def _without_mass(film: FrequencyDependentCoefficients) -> tuple[Coefficients, D
 
 
 def require_all_growing(
-    rotor: FlexibleRotor, bearings: Bearings, speed: float, values: np.ndarray, growing: int
+    rotor: FlexibleRotor, rests: Rests, speed: float, values: np.ndarray, growing: int
 ) -> None:
     """Raise ConvergenceError unless as many exponents of a rotor grow as were found.
 
     Rotors without frequency-dependent films are not asked, nor those with hysteresis, which has no K(s).
     """
-    if not any(map(states_rest, bearings.values())):
+    if not any(map(states_rest, rests.bearings.values())):
         return
     structure = next(models(rotor, usual_frequency(rotor, speed))).structure
     if structure.hysteresis is not None:
         return
-    at = rest(structure, bearings, speed)
+    at = rests.at(structure, speed)
     if not rotor_matrices.frequency_dependent_films(at):
         return
     count = rotor_growing(structure, at, values)

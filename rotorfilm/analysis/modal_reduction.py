@@ -112,10 +112,16 @@ class BandedFactor:
 def lu_solver(matrix: Any) -> Callable[..., np.ndarray]:
     """Return the function of a load (N,), and adjoint=False, that solves with a factored matrix.
 
-    With `adjoint` it is the conjugate transpose that is solved. The answer is complex.
+    With `adjoint` it is the conjugate transpose that is solved. The answer is complex. Matrices (m, N, N)
+    have one load each, shape (m, N).
     """
     if sparse.issparse(matrix):
         return BandedFactor.of(matrix).solve
+    if matrix.ndim > 2:
+        each = list(map(lu_solver, matrix))
+        return lambda load, adjoint=False: np.stack(
+            [solve(one, adjoint) for solve, one in zip(each, load, strict=True)]
+        )
     tally("factorizations")
     factor, pivots, _ = zgetrf(matrix)
     return lambda load, adjoint=False: zgetrs(factor, pivots, load, trans=2 if adjoint else 0)[0]

@@ -164,6 +164,30 @@ def rest(
     )
 
 
+class Rests:
+    """Where a rotor rests at the speeds that were asked for: each search begins at the nearest of them.
+
+    Parameters
+    ----------
+    bearings : mapping of str to Reaction
+        As in `rotor_equilibrium`.
+    """
+
+    def __init__(self, bearings: port.Bearings) -> None:
+        self.bearings = bearings
+        self._known: dict[int, tuple[Structure, dict[float, RotorEquilibrium]]] = {}
+
+    def at(self, structure: Structure, speed: float) -> RotorEquilibrium:
+        """Return the rest of a rotor of these matrices at a speed [rad/s], as `rest`."""
+        known = self._known.setdefault(id(structure), (structure, {}))[1]
+        if speed not in known:
+            near = sorted(known.values(), key=lambda one: abs(one.speed - speed))[:3]
+            known[speed] = rest(structure, self.bearings, speed, near)
+            for bearing in self.bearings.values() if near else ():
+                port.warn_of_flow(bearing, speed)
+        return known[speed]
+
+
 def _is_the_same_at_any_speed(structure: Structure, bearings: port.Bearings) -> bool:
     """Return whether all bearings are springs and dampers, and no damping that turns presses on them."""
     turning = structure.hysteresis is not None or abs(structure.circulation).max() > 0.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import replace
 from typing import Any, NamedTuple
@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.linalg import block_diag, matrix_balance
 
+from ..core.dynamic_stiffness import StatesStiffness, stiffnesses_and_slopes
 from ..core.errors import ConvergenceError
-from ..core.model import Array
-from ..core.port import Bearings, freedoms_of
+from ..core.model import Array, Linearization
+from ..core.port import freedoms_of
 from ..core.results import (
     Coefficients,
     FrequencyDependentCoefficients,
@@ -23,7 +24,7 @@ from ..core.results import (
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, force_rows, freedom_rows, hysteresis_matrices, in_order, is_sparse
 from .modal_reduction import MARGIN, Condensed, all_rows, lu_solver, models, usual_frequency
-from .rotor_equilibrium import RotorEquilibrium, rest
+from .rotor_equilibrium import Rests, RotorEquilibrium
 
 
 class SecondOrder(NamedTuple):
@@ -127,7 +128,7 @@ ALONE = 1e-9
 
 
 def joined_whirls(
-    model: Condensed, at: RotorEquilibrium, frequency: float
+    model: Condensed, whole: FullRotorModel, frequency: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return whirl of a rotor and the states of its films as one linear system, where these are known.
 
@@ -142,7 +143,7 @@ def joined_whirls(
     roundoff : ndarray, shape (m,) [1/s]
         Roundoff of the growth rates.
     """
-    structure = model.structure
+    structure, at = model.structure, whole.at
     films = {
         n: film for n, film in frequency_dependent_films(at).items() if hasattr(film.dynamic_stiffness, "at")
     }
@@ -157,15 +158,15 @@ def joined_whirls(
     still = replace(at, coefficients={**at.coefficients, **held})
     system = small_motion(structure, still, frequency)
     size = len(system.mass)
-    whole = block_diag(system.state_matrix(), *own)
+    matrix = block_diag(system.state_matrix(), *own)
     if films:
-        whole[size : 2 * size, 2 * size :] = np.linalg.solve(system.mass, np.hstack(columns))
-        whole[2 * size :, : 2 * size] = np.vstack(felt)
-    values, vectors = np.linalg.eig(whole)
+        matrix[size : 2 * size, 2 * size :] = np.linalg.solve(system.mass, np.hstack(columns))
+        matrix[2 * size :, : 2 * size] = np.vstack(felt)
+    values, vectors = np.linalg.eig(matrix)
     swings = (values.imag > 0.0) & (-values.real <= LIGHT * np.abs(values))
     light = swings | ((values.imag == 0.0) & (values.real > GROWING * np.abs(values).max()))
     values, shapes = values[light].astype(complex), vectors[:size, light].astype(complex)
-    held_by = holding(FullRotorModel(model.whole, still, frequency), values, model.lifted(shapes))
+    held_by = holding(whole.on(still), values, model.lifted(shapes))
     alone = np.concatenate([np.zeros(0), *map(np.linalg.eigvals, own)])
     apart = np.abs(values[:, None] - alone).min(axis=1, initial=np.inf) > ALONE * np.abs(values)
     moves = (held_by > HELD) & (apart | (values.real > ALONE * np.abs(values)))
@@ -192,26 +193,46 @@ def coefficients_near(film: Coefficients, s: complex) -> Coefficients:
     return film.near(s) if isinstance(film, FrequencyDependentCoefficients) else film
 
 
-def motion_near(
-    structure: Structure, at: RotorEquilibrium, frequency: float
-) -> Callable[[complex], SecondOrder]:
-    """Return the equations of small motion about an equilibrium near an exponent, as a function of it."""
+def motion_near(structure: Structure, at: RotorEquilibrium, frequency: float) -> Callable[[Any], SecondOrder]:
+    """Return the equations of small motion about an equilibrium near an exponent, as a function of it.
+
+    Dense ones also near many exponents (m,), with damping and stiffness of shape (m, N, N).
+    """
     films = frequency_dependent_films(at)
     held = {name: film for name, film in at.coefficients.items() if name not in films}
     system, rows = (
         small_motion(structure, replace(at, coefficients=held), frequency),
         all_rows(structure, films),
     )
-    motions = [film.dynamic_stiffness for film in films.values()]
+    motions = _as_one([film.dynamic_stiffness for film in films.values()])
 
-    def near(s: complex) -> SecondOrder:
-        K, slope = (in_blocks(parts) for parts in zip(*(motion(s) for motion in motions), strict=True))
+    def near(s: Any) -> SecondOrder:
+        found = (stiffnesses_and_slopes(motion, s) for motion in motions)
+        K, slope = (in_blocks(parts) for parts in zip(*found, strict=True))
         damping = system.damping + _at_journal(structure, rows, slope)
-        return SecondOrder(
-            system.mass, damping, system.stiffness + _at_journal(structure, rows, K - s * slope)
-        )
+        still = K - np.asarray(s)[..., None, None] * slope
+        return SecondOrder(system.mass, damping, system.stiffness + _at_journal(structure, rows, still))
 
     return near if films else lambda s: system
+
+
+def _as_one(motions: Sequence[Any]) -> Sequence[Any]:
+    """Return K(s) of reactions as one, block-diagonal in their order, where all states are known."""
+    if len(motions) < 2 or any(type(motion) is not StatesStiffness for motion in motions):
+        return motions
+    systems = [motion.at for motion in motions]
+    places, rates = ([slice(k * len(one.C), (k + 1) * len(one.C)) for one in systems] for k in (0, 1))
+    A, C = block_diag(*(one.A for one in systems)), block_diag(*(one.C for one in systems))
+    B, D = (
+        np.hstack(
+            [
+                block_diag(*(getattr(one, of)[:, own] for one, own in zip(systems, columns, strict=True)))
+                for columns in (places, rates)
+            ]
+        )
+        for of in "BD"
+    )
+    return [StatesStiffness(Linearization(A, B, C, D))]
 
 
 def in_blocks(parts: Sequence[np.ndarray]) -> np.ndarray:
@@ -242,33 +263,39 @@ KNOWN = 3e-10
 _STEPS = 25
 
 
-def dynamics(system: SecondOrder, value: complex) -> tuple[np.ndarray, np.ndarray]:
-    """Return L(s) and dL/ds."""
-    whole = value**2 * system.mass + value * system.damping + system.stiffness
-    return whole, 2.0 * value * system.mass + system.damping
+def dynamics(system: SecondOrder, value: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Return L(s) and dL/ds, of dense equations also at many s (m,), shape (m, N, N)."""
+    s = np.asarray(value)[..., None, None] if np.ndim(value) else value
+    whole = s**2 * system.mass + s * system.damping + system.stiffness
+    return whole, 2.0 * s * system.mass + system.damping
 
 
 def inverse_steps(
-    system: SecondOrder, value: complex, right: np.ndarray, left: np.ndarray, count: int
-) -> list[tuple[complex, np.ndarray, np.ndarray]]:
+    system: SecondOrder, value: Any, right: np.ndarray, left: np.ndarray, count: int
+) -> list[tuple[Any, np.ndarray, np.ndarray]]:
     """Return so many steps of two-sided inverse iteration at one shift: eigenvalue, right, left vector.
 
     The eigenvalue is the shift less left* L right / (left* L' right): its error is of second order in that of
-    the vectors.
+    the vectors. Of dense equations at many shifts (m,), each has vectors of its own, shape (m, N).
     """
     whole, slope = dynamics(system, value)
-    solve = lu_solver(whole)
+    solve, back = lu_solver(whole), slope.conj().swapaxes(-1, -2) if slope.ndim > 2 else slope.conj().T
     found = []
     for _ in range(count):
-        right = _unit(solve(slope @ right))
-        left = _unit(solve(slope.conj().T @ left, adjoint=True))
-        change = (left.conj() @ (whole @ right)) / (left.conj() @ (slope @ right))
-        found.append((complex(value - change), right, left))
+        right = _unit(solve(_times(slope, right)))
+        left = _unit(solve(_times(back, left), adjoint=True))
+        change, moved = (np.sum(left.conj() * _times(one, right), axis=-1) for one in (whole, slope))
+        found.append((value - change / moved, right, left))
     return found
 
 
-def _unit(vector: np.ndarray) -> np.ndarray:
-    return np.asarray(vector / np.linalg.norm(vector))
+def _times(matrix: Any, vectors: np.ndarray) -> np.ndarray:
+    """Return a matrix times a vector (N,), or each of many times its own (m, N)."""
+    return np.asarray((matrix @ vectors[..., None])[..., 0])
+
+
+def _unit(vectors: np.ndarray) -> np.ndarray:
+    return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
 
 
 def whirl_near(
@@ -284,22 +311,53 @@ def whirl_near(
     ConvergenceError
         If the iteration does not end.
     """
+    found, right, left, settled = whirls_near(structure, at, frequency, np.array([value]), load[None])
+    if not settled[0]:
+        raise ConvergenceError(f"the whirl near {value:.6g} rad/s was not found by inverse iteration")
+    return complex(found[0]), right[0], left[0]
+
+
+def whirls_near(
+    structure: Structure, at: RotorEquilibrium, frequency: float, values: np.ndarray, loads: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, NDArray[np.bool_]]:
+    """Return `whirl_near` of many eigenvalues (m,) and loads (m, N), and which of the iterations end."""
     system_at = motion_near(structure, at, frequency)
-    # On an eigenvalue itself L has no inverse.
-    shift = value * (1.0 + 1e-9)
-    found, right, left = inverse_steps(system_at(shift), shift, load, load, 3)[-1]
-    moved = abs(found - value)
-    if moved <= KNOWN * abs(found):
-        return found, right, left  # its error is of second order in that distance
-    for step in range(_STEPS):
-        before, last = found, moved
-        found, right, left = inverse_steps(system_at(found), found * (1.0 + BESIDE), right, left, 1)[-1]
-        moved = abs(found - before)
-        # The next step would be shorter by at least as much as this one is than the last.
-        foreseen = moved * min(1.0, moved / last)
-        if foreseen <= CONVERGED * abs(found) or (step >= PATIENCE and moved <= ROUNDED * abs(found)):
-            return found, right, left
-    raise ConvergenceError(f"the whirl near {value:.6g} rad/s was not found by inverse iteration")
+
+    def steps(near: np.ndarray, shift: np.ndarray, right: np.ndarray, left: np.ndarray, count: int) -> Any:
+        if not is_sparse(structure.mass):
+            return inverse_steps(system_at(near), shift, right, left, count)[-1]
+        each = zip(near.tolist(), shift.tolist(), right, left, strict=True)
+        ends = (inverse_steps(system_at(one), s, right, left, count)[-1] for one, s, right, left in each)
+        return tuple(map(np.array, zip(*ends, strict=True)))
+
+    try:
+        found: np.ndarray
+        # On an eigenvalue itself L has no inverse.
+        shifts = values * (1.0 + 1e-9)
+        found, right, left = steps(shifts, shifts, loads, loads, 3)
+        moved = np.abs(found - values)
+        # The error of those known is of second order in that distance.
+        settled = moved <= KNOWN * np.abs(found)
+        for step in range(_STEPS):
+            if not (own := np.flatnonzero(~settled)).size:
+                break
+            before, last = found[own], moved[own]
+            found[own], right[own], left[own] = steps(
+                before, before * (1.0 + BESIDE), right[own], left[own], 1
+            )
+            size, moved[own] = np.abs(found[own]), np.abs(found[own] - before)
+            # The next step would be shorter by at least as much as this one is than the last.
+            foreseen = moved[own] * np.minimum(1.0, moved[own] / last)
+            rounded = (step >= PATIENCE) & (moved[own] <= ROUNDED * size)
+            settled[own] = (foreseen <= CONVERGED * size) | rounded
+    except ConvergenceError:  # K(s) is not known wherever one of them went
+        if len(values) == 1:
+            return values, loads, loads, np.zeros(1, dtype=bool)
+        pairs = zip(values[:, None], loads[:, None], strict=True)
+        alone = [whirls_near(structure, at, frequency, *pair) for pair in pairs]
+        each = [np.concatenate(parts) for parts in zip(*alone, strict=True)]
+        return each[0], each[1], each[2], each[3]
+    return found, right, left, settled
 
 
 # How large the error of a response in some of the shapes of a rotor is, at many speeds.
@@ -409,15 +467,21 @@ class FullRotorModel:
     """
 
     def __init__(self, structure: Structure, at: RotorEquilibrium, frequency: float) -> None:
-        self.at, films = at, list(at.coefficients.values())
+        self.at = at
         self.shaft = small_motion(structure, replace(at, coefficients={}), frequency)
         self.rows = all_rows(structure, at.coefficients)
-        self.films = _in_kinds(films)
+        self.films = _in_kinds(list(at.coefficients.values()))
 
-    def near(self, values: Iterable[complex]) -> FullRotorModel:
+    def on(self, at: RotorEquilibrium) -> FullRotorModel:
+        """Return the same with other coefficients of the films, in the order of its own."""
+        found = copy(self)
+        found.at, found.films = at, _in_kinds([at.coefficients[name] for name in self.at.coefficients])
+        return found
+
+    def near(self, values: np.ndarray) -> FullRotorModel:
         """Return the same with K(s) and its slope of frequency-dependent films at one s for each motion."""
-        found, films = copy(self), [list(rest_near(self.at, s).coefficients.values()) for s in values]
-        found.films = [np.stack(parts) for parts in zip(*map(_in_kinds, films), strict=True)]
+        found = copy(self)
+        found.films = _in_kinds(list(self.at.coefficients.values()), values)
         return found
 
     def forces(self, values: Any, motion: np.ndarray) -> np.ndarray:
@@ -450,10 +514,17 @@ class FullRotorModel:
         return np.asarray((self.shaft.mass @ motion) * (2.0 * values) + self.shaft.damping @ motion + film)
 
 
-def _in_kinds(films: Sequence[Coefficients]) -> list[np.ndarray]:
-    """Return K, C and added mass of all films, each in one matrix."""
-    kinds = [film.stiffness for film in films], [film.damping for film in films], list(map(added_mass, films))
-    return [in_blocks(parts) for parts in kinds]
+def _in_kinds(films: Sequence[Coefficients], near: np.ndarray | None = None) -> list[np.ndarray]:
+    """Return K, C and added mass of all films, each in one matrix; those near many exponents if given."""
+
+    def kinds(film: Coefficients) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        if near is None or not isinstance(film, FrequencyDependentCoefficients):
+            return film.stiffness, film.damping, added_mass(film)
+        K, slope = stiffnesses_and_slopes(film.dynamic_stiffness, near)
+        return K - near[:, None, None] * slope, slope, np.zeros_like(film.stiffness)
+
+    parts = list(map(kinds, films))
+    return [in_blocks([part[k] for part in parts]) for k in range(3)]
 
 
 def _each(films: np.ndarray, seen: np.ndarray) -> np.ndarray:
@@ -553,20 +624,21 @@ BESIDE = 1e-9
 """Distance of the shift from the eigenvalue / (its size + speed)."""
 
 
-def value_error(rotor: FlexibleRotor, bearings: Bearings, speed: float, value: complex) -> float:
+def value_error(rotor: FlexibleRotor, rests: Rests, speed: float, value: complex) -> float:
     """Return the estimated error of an eigenvalue by the shapes that were left out [1/s]; 0 without such.
 
     Parameters
     ----------
-    rotor, bearings
-        As in `rotor_modes`, from which the eigenvalue is.
+    rotor : FlexibleRotor
+    rests : Rests
+        The rests in the bearings of `rotor_modes`, from which the eigenvalue is.
     speed : float [rad/s]
     value : complex [1/s]
     """
     model = next(models(rotor, usual_frequency(rotor, speed)))
     if model.space is None:
         return 0.0
-    at, frequency = rest_near(rest(model.structure, bearings, speed), value), abs(value.imag)
+    at, frequency = rest_near(rests.at(model.structure, speed), value), abs(value.imag)
     system = small_motion(model.structure, at, frequency)
     start = np.random.default_rng(0).normal(size=len(system.mass)) + 0j
     shift = value + BESIDE * (abs(value) + abs(speed))

@@ -30,8 +30,8 @@ from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure
 from . import modal_reduction
 from .critical import Crossing, crossings
-from .frequency_dependent import frequency_dependent_motion
-from .rotor_equilibrium import RotorEquilibrium, rest
+from .frequency_dependent import frequency_dependent_motions
+from .rotor_equilibrium import Rests, RotorEquilibrium
 from .rotor_matrices import (
     HELD,
     FullRotorModel,
@@ -226,12 +226,12 @@ def rotor_modes(
         If there is no equilibrium.
     """
     with modal_reduction.counted(*modal_reduction.COUNTS) as work:
-        motions = motions_at(rotor, bearings, speed, highest_frequency)
+        motions = motions_at(rotor, Rests(bearings), speed, highest_frequency)
     return replace(whirls_of(motions, highest_frequency), work=dict(work))
 
 
 def motions_at(
-    rotor: FlexibleRotor, bearings: Bearings, speed: float, highest_frequency: float = math.inf
+    rotor: FlexibleRotor, rests: Rests, speed: float, highest_frequency: float = math.inf
 ) -> RotorModes:
     """Return the whirls at a speed, also beyond `highest_frequency`, and motions that do not oscillate."""
     require_flexible(rotor)
@@ -242,7 +242,7 @@ def motions_at(
     )
     reach = _FAR * highest_frequency
     found = (
-        _motions(model, rest(model.structure, bearings, speed), known_to, reach)
+        _motions(model, rests.at(model.structure, speed), known_to, reach)
         for model in modal_reduction.models(rotor, known_to)
     )
     return next(motions for motions in found if motions.error <= modal_reduction.TOLERANCE)
@@ -344,7 +344,9 @@ def _part(
     system = small_motion(model.structure, at, frequency)
     modal_reduction.tally("eigenproblems")
     matrix = system.state_matrix()
-    values, left, vectors = eig(matrix, left=True)
+    values, *both = eig(matrix, left=True)
+    upper = values.imag >= 0.0  # the others are their conjugates
+    values, (left, vectors) = values[upper], (one[:, upper] for one in both)
     shapes = vectors[: len(system.mass)]
     whole, lifted = FullRotorModel(model.whole, at, frequency), model.lifted(shapes)
     held = holding(whole, values, lifted)
@@ -354,7 +356,7 @@ def _part(
     order = np.flatnonzero(chosen)[np.argsort(values.imag[chosen])]
     if follows:
         return _frequency_dependent_part(
-            model, at, band, (known_to, reach), (values[order], shapes[:, order], rounded[order])
+            model, whole, band, (known_to, reach), (values[order], shapes[:, order], rounded[order])
         )
     asked = [k for k in order if oscillates(values[k]) and abs(values[k]) <= known_to]
     error = 0.0
@@ -371,7 +373,7 @@ are not followed to K(s): where they end is beyond it too."""
 
 def _frequency_dependent_part(
     model: modal_reduction.Condensed,
-    at: RotorEquilibrium,
+    whole: FullRotorModel,
     band: Band,
     bounds: tuple[float, float],
     next_to: tuple[np.ndarray, np.ndarray, np.ndarray],
@@ -386,27 +388,32 @@ def _frequency_dependent_part(
     found: list[tuple[complex, np.ndarray, float]] = []
     ends: list[np.ndarray] = []
     (known_to, reach), error, (starts, shapes, rounded), (frequency, low, high) = bounds, 0.0, next_to, band
+    at = whole.at
     told = [hasattr(film.dynamic_stiffness, "at") for film in frequency_dependent_films(at).values()]
     known = all(told)
     # Without states that are known the joined system is that of the starts.
     own, ways, roundings = (
-        joined_whirls(model, at, frequency) if any(told) else (starts[:0], shapes[:, :0], rounded[:0])
+        joined_whirls(model, whole, frequency) if any(told) else (starts[:0], shapes[:, :0], rounded[:0])
     )
     partner = _continued((starts, shapes), (own, ways), model.structure.mass) if known else {}
     alone = [k for k in range(len(starts)) if k not in partner]
     begun, ways_of_all = np.concatenate([starts[alone], own]), np.hstack([shapes[:, alone], ways])
-    given = zip(begun, ways_of_all.T, [*rounded[alone], *roundings], strict=True)
-    for k, (start, shape, rounding) in enumerate(given):
-        if start.imag > reach or (start.real < 0.0 and abs(start) > FURTHEST * known_to):
-            continue
-        try:
-            one = frequency_dependent_motion(model.structure, at, frequency, complex(start), shape)
-        except ConvergenceError:
+    followed = np.flatnonzero(
+        (begun.imag <= reach) & ((begun.real >= 0.0) | (np.abs(begun) <= FURTHEST * known_to))
+    )
+    motions = frequency_dependent_motions(
+        model.structure, at, frequency, begun[followed], ways_of_all.T[followed]
+    )
+    rounding_of_all = [*rounded[alone], *roundings]
+    for k, one in zip(followed.tolist(), motions, strict=True):
+        start, rounding = begun[k], rounding_of_all[k]
+        if one is None:
             # Those that matter are among the eigenvalues with all states, in the band of their hysteresis.
-            if (known and k < len(alone)) or not low <= start.imag < high:
+            elsewhere = (known and k < len(alone)) or not low <= start.imag < high
+            if elsewhere or start.imag <= -start.real:
                 continue
-            raise
-        if one is None or not low <= one[0].imag < high or _is_among(one[0], one[1], found):
+            raise ConvergenceError(f"the whirl near {start:.6g} rad/s was not found by inverse iteration")
+        if not low <= one[0].imag < high or _is_among(one[0], one[1], found):
             continue
         s, *vectors = one
         found.append((s, vectors[0], float(rounding)))
@@ -415,8 +422,8 @@ def _frequency_dependent_part(
     if model.space is not None and asked:
         known_values = np.array([found[k][0] for k in asked])
         both = (np.stack([rows[k] for k in asked], 1) for rows in ([one for _, one, _ in found], ends))
-        whole = FullRotorModel(model.whole, at, frequency).near(known_values)
-        error = float(whirl_errors(model, whole, known_values, *map(model.lifted, both)).max())
+        near = whole.near(known_values)
+        error = float(whirl_errors(model, near, known_values, *map(model.lifted, both)).max())
     found.sort(key=lambda motion: motion[0].imag)
     values = np.array([value for value, *_ in found], dtype=complex)
     right = np.array([vector for _, vector, _ in found], dtype=complex).reshape(-1, len(shapes))
@@ -624,8 +631,10 @@ def campbell(
     """
     grid = speeds_in_turn(speeds)
     require_range(highest_frequency)
+    rests, furthest = Rests(bearings), _BEYOND * highest_frequency
     with modal_reduction.counted(*modal_reduction.COUNTS) as work:
-        points = [rotor_modes(rotor, bearings, float(speed), _BEYOND * highest_frequency) for speed in grid]
+        motions = (motions_at(rotor, rests, float(speed), furthest) for speed in grid)
+        points = [whirls_of(one, furthest) for one in motions]
     tracks = tracked(points, rotor.assembly.mass)
     values = np.full((len(tracks), len(grid)), complex(math.nan, math.nan))
     direction, rounded = np.full((2, len(tracks), len(grid)), math.nan)

@@ -21,7 +21,7 @@ from ..rotors import FlexibleRotor
 from . import modal_reduction
 from .coefficients import GROWTH_ROUNDOFF
 from .frequency_dependent import require_all_growing
-from .rotor_equilibrium import rest
+from .rotor_equilibrium import Rests
 from .rotor_matrices import oscillates, value_error, whirl_near
 from .rotor_modes import RotorModes, bands_of, directions, motions_at, speeds_in_turn
 from .threads import one_blas_thread
@@ -129,7 +129,7 @@ def rotor_threshold(
     ConvergenceError
         If that count is another than that of the exponents found.
     """
-    search = _Stability(modal_reduction.whirling(rotor, bearings), bearings)
+    search = _Stability(modal_reduction.whirling(rotor, bearings), Rests(bearings))
     grid = speeds_in_turn(speeds)
     with modal_reduction.counted(*modal_reduction.COUNTS) as work:
         unstable = search.growing(float(grid[0])) > 0
@@ -178,7 +178,7 @@ def stability_changes(
     """
     with modal_reduction.counted(*modal_reduction.COUNTS) as work:
         found = list(
-            _Stability(modal_reduction.whirling(rotor, bearings), bearings).changes(
+            _Stability(modal_reduction.whirling(rotor, bearings), Rests(bearings)).changes(
                 speeds_in_turn(speeds), report
             )
         )
@@ -192,10 +192,10 @@ def first_growing(rotor: FlexibleRotor, bearings: Bearings, speeds: Array) -> tu
     Growth at the highest speed tells whether there is one, and halving which is the first: growth that ceases
     again within the range goes unseen.
     """
-    rotor = modal_reduction.whirling(rotor, bearings)
+    rotor, rests = modal_reduction.whirling(rotor, bearings), Rests(bearings)
 
     def growing(speed: float) -> NDArray[np.complex128]:
-        motions = motions_at(rotor, bearings, speed)
+        motions = motions_at(rotor, rests, speed)
         values = motions.eigenvalues
         return values[motions.grows & (values.real > GROWTH_ROUNDOFF * (np.abs(values) + speed))]
 
@@ -231,11 +231,11 @@ class _Stability(NamedTuple):
     """The search for changes of stability of a rotor on its films."""
 
     rotor: FlexibleRotor
-    bearings: Bearings
+    rests: Rests
 
     def growth(self, speed: float) -> _Growth:
         """Return Re s / |s| of whirls; of others Re s / (|s| + |speed|), which divergence takes through 0."""
-        motions = motions_at(self.rotor, self.bearings, speed)
+        motions = motions_at(self.rotor, self.rests, speed)
         values, whirls = motions.eigenvalues, oscillates(motions.eigenvalues)
         size = np.abs(values) + np.where(whirls, 0.0, abs(motions.speed))
         rates = np.where(motions.grows, values.real, np.minimum(values.real, 0.0)) / size
@@ -249,7 +249,7 @@ class _Stability(NamedTuple):
     def _counted(self, speed: float) -> _Growth:
         """Return what grows at a speed, with a proof on frequency-dependent films that it is all."""
         found = self.growth(speed)
-        require_all_growing(self.rotor, self.bearings, speed, found.motions.eigenvalues, found.growing)
+        require_all_growing(self.rotor, self.rests, speed, found.motions.eigenvalues, found.growing)
         return found
 
     def changes(self, speeds: Array, report: Report) -> Iterator[StabilityChange]:
@@ -289,7 +289,7 @@ class _Stability(NamedTuple):
         found = self._followed(k, seen[near], root) or self._on_line(k, seen)
         speed, value, shape, slope = found
         size = _size(value, speed)
-        change = value_error(self.rotor, self.bearings, speed, value)
+        change = value_error(self.rotor, self.rests, speed, value)
         whirls = bool(oscillates(np.array(value)))
         direction = directions(self.rotor.assembly, shape[:, None], speed)[0] if whirls else 0.0
         return StabilityChange(
@@ -323,7 +323,7 @@ class _Stability(NamedTuple):
         speed = start.motions.speed
         for _ in range(_SECANTS if oscillates(np.array(value)) else 0):
             try:
-                at = rest(model.structure, self.bearings, speed)
+                at = self.rests.at(model.structure, speed)
                 bands = bands_of(whole, abs(speed))
                 frequency = next(one for one, below, above in bands if below <= value.imag < above)
                 value, shape, _ = whirl_near(whole, at, frequency, value, shape)

@@ -457,16 +457,16 @@ class FrequencyDependentReaction:
 class HoldingStiffness(StatesStiffness):
     """K(s) of states some of which may integrate: these hold the shaft in motion that is infinitely slow."""
 
-    def __call__(self, s: complex) -> tuple[Complex, Complex]:
+    def __call__(self, s: ArrayLike) -> tuple[Complex, Complex]:
         """Return K(s) [N/m] and dK/ds [N s/m]; InputError at 0 where a state integrates."""
         try:
             return super().__call__(s)
         except InputError:
-            if s:
+            if np.any(s):
                 raise
             raise InputError(
                 "frequency must be above 0: at 0 a state that integrates holds the shaft, with infinite "
-                f"stiffness, got {abs(s)!r}"
+                "stiffness, got 0.0"
             ) from None
 
 

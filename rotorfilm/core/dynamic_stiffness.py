@@ -259,15 +259,15 @@ class StatesStiffness:
 
     at: Linearization
 
-    def __call__(self, s: complex) -> tuple[Complex, Complex]:
-        """Return K(s) [N/m] and dK/ds [N s/m]; see `DynamicStiffness`."""
+    def __call__(self, s: ArrayLike) -> tuple[Complex, Complex]:
+        """Return K(s) [N/m] and dK/ds [N s/m], shape (..., n, n); see `DynamicStiffness`."""
         A, B, C, D = self.at
-        n = len(C)
+        n, each = len(C), np.asarray(s)[..., None, None]
         by_place, by_rate = slice(n), slice(n, 2 * n)
-        follow = s * np.eye(len(A)) - A
-        moved = _following(follow, B[:, by_place] + s * B[:, by_rate], s)
+        follow = each * np.eye(len(A)) - A
+        moved = _following(follow, B[:, by_place] + each * B[:, by_rate], s)
         slope = np.linalg.solve(follow, B[:, by_rate] - moved)
-        K, damping = D[:, by_place] + s * D[:, by_rate] + C @ moved, D[:, by_rate] + C @ slope
+        K, damping = D[:, by_place] + each * D[:, by_rate] + C @ moved, D[:, by_rate] + C @ slope
         return -K.astype(complex), -damping.astype(complex)
 
     def stiffness(self, s: ArrayLike) -> Complex:
@@ -306,6 +306,15 @@ def stiffnesses(motion: Any, s: np.ndarray) -> Complex:
     return np.stack([motion.stiffness(complex(one)) for one in s])
 
 
+def stiffnesses_and_slopes(motion: Any, s: ArrayLike) -> tuple[Complex, Complex]:
+    """Return K(s) [N/m] and dK/ds [N s/m] at one s or at many (m,) [1/s], shape (..., n, n) each."""
+    if hasattr(motion, "at") or not np.ndim(s):
+        found: tuple[Complex, Complex] = motion(s)
+        return found
+    K, slope = zip(*(motion(complex(one)) for one in np.asarray(s)), strict=True)
+    return np.stack(K), np.stack(slope)
+
+
 @dataclass(frozen=True)
 class InertialStiffness:
     """K(s) + s^2 mass of a reaction that adds a mass, as a `DynamicStiffness`.
@@ -325,10 +334,10 @@ class InertialStiffness:
         """The states of the reaction, if it tells them."""
         return self.motion.at
 
-    def __call__(self, s: complex) -> tuple[Complex, Complex]:
+    def __call__(self, s: ArrayLike) -> tuple[Complex, Complex]:
         """Return K(s) + s^2 mass [N/m] and its slope [N s/m]; see `DynamicStiffness`."""
-        K, slope = self.motion(s)
-        return K + s**2 * self.mass, slope + 2.0 * s * self.mass
+        (K, slope), each = self.motion(s), np.asarray(s)[..., None, None]
+        return K + each**2 * self.mass, slope + 2.0 * each * self.mass
 
     def stiffness(self, s: ArrayLike) -> Complex:
         """Return K(s) + s^2 mass [N/m] alone, shape (..., n, n)."""

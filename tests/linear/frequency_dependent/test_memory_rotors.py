@@ -27,6 +27,7 @@ from rotorfilm import (
 )
 from rotorfilm.analysis import frequency_dependent as remembered, rotor_system
 from rotorfilm.analysis.frequency_dependent import rotor_growing
+from rotorfilm.analysis.rotor_matrices import whirl_near, whirls_near
 from rotorfilm.analysis.speed_events import CRITICAL, Start, value_rate, whirl_of
 from rotorfilm.bearings import PadMapFilm, PadResolution
 
@@ -209,14 +210,52 @@ def test_python_control_has_the_films_at_all_frequencies_up_to_the_speed(films):
 def test_modes_follow_only_exponents_that_may_come_within_the_range(films, monkeypatch):
     followed = []
 
-    def counted(structure, at, frequency, value, shape):
-        followed.append(value)
-        return frequency_dependent_motion(structure, at, frequency, value, shape)
+    def counted(structure, at, frequency, values, shapes):
+        followed.extend(values)
+        return frequency_dependent_motions(structure, at, frequency, values, shapes)
 
     module = sys.modules["rotorfilm.analysis.rotor_modes"]
-    frequency_dependent_motion = module.frequency_dependent_motion
-    monkeypatch.setattr(module, "frequency_dependent_motion", counted)
+    frequency_dependent_motions = module.frequency_dependent_motions
+    monkeypatch.setattr(module, "frequency_dependent_motions", counted)
     modes = rotor_modes(shaft(), films, 120.0, 1500.0)
     # All motions of the 20 coordinates would be more than 20, and twice that with those of films with states.
     assert len(modes.eigenvalues) <= len(followed) <= 3 * len(modes.eigenvalues)
     assert len(set(followed)) == len(followed)
+
+
+@pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.UnloadedPadWarning")
+def test_rests_over_speed_are_sought_once_and_lead_to_the_modes_of_each_speed(films):
+    """A Campbell diagram begins each search at its neighbors, `rotor_modes` begins anew."""
+    rotor, speeds = shaft(2), np.linspace(120.0, 200.0, 5)
+    found = campbell(rotor, films, speeds, 1500.0)
+    assert found.work["equilibria"] == len(speeds)
+    for values, speed in zip(found.eigenvalues.T, speeds, strict=True):
+        alone = rotor_modes(rotor, films, speed, 1500.0).eigenvalues
+        apart = np.abs(values[np.isfinite(values), None] - alone).min(axis=1)
+        assert np.all(apart < 1e-9 * np.abs(values[np.isfinite(values)]))
+    assert rotor_threshold(rotor, PADS, speeds).work["equilibria"] == len(speeds)
+
+
+def test_whirls_sought_together_are_those_sought_alone(films, monkeypatch):
+    """Where K(s) of a film is not known for one of them, that one alone is not found."""
+    structure, at = shaft(2).structure, rotor_equilibrium(shaft(2), films, 150.0)
+    starts, load = np.array([90.0j, 150.0j, -40.0 + 400.0j]), np.ones(len(structure.weight)) + 0j
+    found, right, left, ended = whirls_near(structure, at, 150.0, starts, np.array([load] * 3))
+    assert ended.all()
+    for k, start in enumerate(starts):
+        value, first, last = whirl_near(structure, at, 150.0, start, load)
+        assert found[k] == pytest.approx(value, rel=1e-13)
+        assert abs(np.vdot(right[k], first)) == pytest.approx(1.0, rel=1e-12)
+        assert abs(np.vdot(left[k], last)) == pytest.approx(1.0, rel=1e-12)
+    motion = type(at.coefficients["left"].dynamic_stiffness)
+    known = motion.__call__
+
+    def refusing(self, s):
+        if abs(s - starts[1]) < 1e-6:
+            raise ConvergenceError("no K(s)")
+        return known(self, s)
+
+    monkeypatch.setattr(motion, "__call__", refusing)
+    others, *_, ended = whirls_near(structure, at, 150.0, starts, np.array([load] * 3))
+    assert ended.tolist() == [True, False, True]
+    assert others[[0, 2]] == pytest.approx(found[[0, 2]], rel=1e-13)
