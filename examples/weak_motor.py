@@ -6,7 +6,6 @@ The same rotor with a weak and a strong motor; power tells where the weak one ha
 from pathlib import Path
 
 import numpy as np
-from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
 import rotorfilm as rf
@@ -21,7 +20,7 @@ ends = []
 for stall in (0.3, 2.0):
     motor = rf.rotors.LinearMotor(stall_torque=stall, idle_speed=2.0 * critical)
     driven = rf.MotorDrivenRotor(rotor=rotor, inertia=5e-3, torque=motor)
-    run = rf.simulate(driven, springs, duration=2.5, samples=501, rtol=1e-5, method=DOP853)
+    run = rf.simulate(driven, springs, duration=2.5, samples=501, rtol=1e-5)
     axes.plot(run.time, run["speed"] / critical, label=f"stall torque {stall} N m")
     ends.append(run["speed"][-200:].mean())
 axes.legend()

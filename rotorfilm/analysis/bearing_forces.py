@@ -11,7 +11,7 @@ from .compiled_rotor import Parts, equations, state_matrices, turning_pairs
 from .force_calls import CrackForce
 
 
-def bearing_forces(parts: Parts, time: Array, states: Array, speed: Array) -> list[Array]:
+def bearing_forces(parts: Parts, time: Array, states: Array, turn: Array) -> list[Array]:
     """Return what each bearing adds to a trajectory, shape (n_signals, n_times).
 
     These are its forces with that of the added mass, and for one with states its further outputs and states.
@@ -19,10 +19,12 @@ def bearing_forces(parts: Parts, time: Array, states: Array, speed: Array) -> li
     Parameters
     ----------
     parts : Parts
-    time, speed : ndarray, shape (n_times,) [s], [rad/s]
+    time : ndarray, shape (n_times,) [s]
     states : ndarray, shape (n_times, n_states)
+    turn : ndarray, shape (3, n_times)
+        Angle, speed and angular acceleration.
     """
-    n, linear = len(parts.structure.weight), {one.station: one for one in parts.linear}
+    n, linear, speed = len(parts.structure.weight), {one.station: one for one in parts.linear}, turn[1]
     journals = list(zip(parts.names, parts.bearings, strict=False))
     rows = [freedom_rows(parts.structure, name, freedoms_of(bearing)) for name, bearing in journals]
     moved = [(seen @ states[:, :n].T, seen @ states[:, n : 2 * n].T) for seen in rows]
@@ -32,7 +34,7 @@ def bearing_forces(parts: Parts, time: Array, states: Array, speed: Array) -> li
     ]
     accelerations = np.zeros((2 * len(journals), len(time)))
     if any(inertial(bearing) is not None for _, bearing in journals):
-        found, accelerations = _with_inertia(parts, found, moved, time, states, speed)
+        found, accelerations = _with_inertia(parts, found, moved, time, states, turn)
     first = 2 * n
     for one in parts.linear:
         k, last = parts.names.index(one.station), first + len(one.system.A)
@@ -53,15 +55,15 @@ def _with_inertia(
     moved: list[tuple[Array, Array]],
     time: Array,
     states: Array,
-    speed: Array,
+    turn: Array,
 ) -> tuple[list[Array], Array]:
     """Return forces F less M a of the added masses of bearings, and the accelerations a of all journals.
 
     With a = a0 + D u for all forces u, u = F - M a is solved for the forces.
     """
-    n = len(parts.structure.weight)
+    n, speed = len(parts.structure.weight), turn[1]
     A, B, weight = state_matrices(parts, 0.0)
-    given = [turning_pairs(parts, time)]
+    given = [turning_pairs(turn)]
     if parts.excited is not None:
         given += [np.interp(time, parts.excited[0], row, 0.0, 0.0)[:, None] for row in parts.excited[1:]]
     pushed = np.hstack(given) @ B[:, len(parts.rows) :].T

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterator
-from ctypes import addressof, byref, c_int32, c_int64
+from ctypes import addressof, byref, c_double, c_int32, c_int64
 from dataclasses import replace
 from enum import IntEnum
 from functools import lru_cache, partial
@@ -29,17 +29,18 @@ from ..core.errors import (
 from ..core.inputs import arguments
 from ..core.limits import STEPS as MOST_STEPS, TURNS, require_at_most
 from ..core.model import Array, Dynamic, breakpoints
-from ..core.port import freedoms_of, is_constant, static_slopes
+from ..core.port import freedoms_of, is_constant, require_turned, static_slopes
 from ..core.results import Trajectory
 from ..core.signals import indices, names, units
+from ..native.film_call import FilmCall
 from ..native.library import loops
 from ..native.structs import constant, structure
-from ..rotors import MountedRotor, SpeedProfile
+from ..rotors import MotorDrivenRotor, MountedRotor, SpeedProfile
 from ..rotors.structure import prefixed
 from . import compiled_rotor
 from .bearing_forces import bearing_forces
 from .compiled_rotor import modes, starts
-from .force_calls import of_station, raise_foreign, warn_beyond, warn_of_thin_films
+from .force_calls import of_station, raise_foreign, torque_call, warn_beyond, warn_of_thin_films
 from .threads import one_blas_thread
 
 LONGEST_TURN = 1.0
@@ -70,7 +71,8 @@ def simulate_rotor(
 
     On springs and dampers at constant speed the motion is exact at every sample, and no steps are taken.
 
-    A `SpeedProfile` may change the gyroscopic effect and the rotating damping too. A shaft of many elements
+    A `SpeedProfile` may change the gyroscopic effect and the rotating damping too. On a motor
+    (`MotorDrivenRotor`) speed and angle are found along with the forces. A shaft of many elements
     (more than 60 coordinates) is reduced to its lowest mode shapes. Forces of the bearings, unbalance and
     weight in such a run also act on the whole shaft, and bend the shapes that were neglected. The run is
     accepted if that moves no journal further than `condensation`, estimated as twice the static response of
@@ -83,7 +85,7 @@ def simulate_rotor(
     mounted : MountedRotor
         Mounted rotor from `mount`, with a bearing in at least one station, and without free force inputs. Its
         bearings react to x and y, or are a `MomentCarryingJournal`, and have no states unless they are
-        linear, as a `FrequencyDependentReaction`. Its speed may be a profile.
+        linear, as a `FrequencyDependentReaction`. Its speed may be a profile, or follow from a motor.
     duration : float [s]
     samples : int
         Number of samples at equal distance, from 0 to `duration` inclusive.
@@ -93,7 +95,7 @@ def simulate_rotor(
         State at t = 0, instead of the rotor's own.
     rtol : float [1]
         Local error of the journals at every moment: displacement / clearance and velocity /
-        (clearance speed).
+        (clearance speed). On a motor also that of the angle, in rad, and of the speed over the largest.
     max_step : float [s]
     condensation : float [1]
         Largest displacement of a journal by the neglected shapes of a large shaft, in clearances. With 0 the
@@ -130,13 +132,17 @@ def simulate_rotor(
     if require_finite("initial_state", state).shape != (size,):
         raise InputError(f"initial_state must have shape ({size},), got {state.shape}")
     grid = sample_times(duration, samples, times)
-    run = partial(_run, duration=duration, rtol=rtol, max_step=max_step)
+    begun, driven = (0.0, 0.0), mounted.bare
+    if isinstance(driven, MotorDrivenRotor):
+        place = len(driven.rotor.states)
+        begun, state = tuple(state[place : place + 2].tolist()), np.delete(state, [place, place + 1])
+    run = partial(_run, duration=duration, rtol=rtol, max_step=max_step, begun=begun)
     return _verified(starts(mounted, state, whole=condensation == 0.0), run, grid, duration, condensation)
 
 
 def _verified(
     starts: Iterator[tuple[MountedRotor, Array, compiled_rotor.NeglectedMotion | None]],
-    run_of: Callable[..., tuple[Trajectory, Array, Exception | None]],
+    run_of: Callable[..., tuple[Trajectory, Array, Array, Exception | None]],
     grid: Array,
     duration: float,
     condensation: float,
@@ -147,13 +153,15 @@ def _verified(
     work: Counter[str] = Counter()
     for mounted, state, neglected in starts:
         parts = compiled_rotor.take_apart(mounted, over_time=True)
-        run, states, failure = run_of(mounted, state, parts, grid if neglected is None else dense)
+        run, states, turn, failure = run_of(mounted, state, parts, grid if neglected is None else dense)
         work.update(run.work)
-        if neglected is None or neglected.largest(run, states) <= condensation:
+        if neglected is None or neglected.largest(run, states, turn) <= condensation:
             break
     picked = replace(_at(run, grid), work=dict(work))
     if failure is not None:
         raise type(failure)(str(failure), picked) from failure
+    for bearing in mounted.all_bearings.values():
+        require_turned(bearing, mounted.bare, picked.signals)
     warn_of_thin_films(mounted.all_bearings, picked)
     return picked
 
@@ -173,41 +181,54 @@ def _run(
     duration: float,
     rtol: float,
     max_step: float,
-) -> tuple[Trajectory, Array, Exception | None]:
-    """Return a run, the states at its times, and what ended it early."""
+    begun: tuple[float, float],
+) -> tuple[Trajectory, Array, Array, Exception | None]:
+    """Return a run, the states at its times, the turning of the shaft there, and what ended it early.
+
+    What began is the angle and the speed of a rotor on a motor, whose states have neither.
+    """
     if (exact := linear_states(parts, state, grid)) is not None:
-        return _trajectory(mounted, grid, exact, parts, dict.fromkeys(_COUNTERS, 0)), exact, None
+        turn = parts.profile.turn(grid)
+        return _trajectory(mounted, grid, exact, parts, turn, dict.fromkeys(_COUNTERS, 0)), exact, turn, None
     rate = parts.nominal_speed or rate_of(compiled_rotor.modal_rotor(parts, 0.0))
     longest = min(max_step, duration, LONGEST_TURN * 2.0 * np.pi / rate)
     march = partial(March, rtol=rtol, longest=longest, duration=duration, stages=stages_of(rtol))
-    run = RunUp(parts, state, duration, march)
+    run = RunUp(parts, state, duration, march, begun)
     kept: list[Array] = [np.zeros((0, len(state))), *([state[None]] if grid.size and grid[0] == 0.0 else [])]
     try:
         kept.extend(run.states(grid))
     except (ContactError, ConvergenceError) as failure:
+        if failure.partial is None:  # without modes there is no run
+            raise
         states = np.concatenate([*kept, failure.partial])
+        turn = run.turn(grid[: len(states)])
         try:
-            return _trajectory(mounted, grid, states, parts, run.work), states, failure
+            return _trajectory(mounted, grid, states, parts, turn, run.work), states, turn, failure
         except InputError:  # a film has no force in the last state
-            return _trajectory(mounted, grid, states[:-1], parts, run.work), states[:-1], failure
+            states, turn = states[:-1], turn[:, :-1]
+            return _trajectory(mounted, grid, states, parts, turn, run.work), states, turn, failure
     run.warn()
-    states = np.concatenate(kept)
-    return _trajectory(mounted, grid, states, parts, run.work), states, None
+    states, turn = np.concatenate(kept), run.turn(grid)
+    return _trajectory(mounted, grid, states, parts, turn, run.work), states, turn, None
 
 
 def _trajectory(
-    mounted: MountedRotor, grid: Array, states: Array, parts: compiled_rotor.Parts, work: dict[str, int]
+    mounted: MountedRotor,
+    grid: Array,
+    states: Array,
+    parts: compiled_rotor.Parts,
+    turn: Array,
+    work: dict[str, int],
 ) -> Trajectory:
     time = grid[: len(states)]
-    rotor = mounted.bare
-    # Displacements and rates are linear in the state, the last output is the speed.
-    rows = rotor.linearization(0.0, rotor.initial_state, np.zeros(len(rotor.inputs))).C
-    outputs = rows @ states[:, : rows.shape[1]].T
-    steady = len(set(parts.profile.speeds)) == 1
-    outputs[-1] = parts.profile.speeds[0] if steady else [parts.profile.speed(t) for t in time]
-    signals = dict(zip(names(rotor.outputs), outputs, strict=True))
+    rotor: Any = mounted.bare
+    # Displacements and rates are linear in the state, then come the speed and, on a motor, the angle.
+    plain = rotor.rotor if parts.motor else rotor
+    rows = plain.linearization(0.0, plain.initial_state, np.zeros(len(plain.inputs))).C
+    outputs = np.vstack([rows[:-1] @ states[:, : rows.shape[1]].T, turn[1], turn[0]])
+    signals = dict(zip(names(rotor.outputs), outputs, strict=False))
     shown = list(rotor.outputs)
-    found = bearing_forces(parts, time, states, outputs[-1])
+    found = bearing_forces(parts, time, states, turn)
     for name, bearing, rows in zip(parts.names, parts.bearings, found, strict=False):  # not for a crack
         further = bearing.outputs if bearing.states else bearing.outputs[: len(freedoms_of(bearing))]
         known = [prefixed(name, signal) for signal in (*further, *bearing.states)]
@@ -226,7 +247,7 @@ def linear_states(parts: compiled_rotor.Parts, state: Array, grid: Array) -> Arr
     the unbalance. None where speed or bearings change, a journal may touch, or the modes do not say the
     motion to 1e-9.
     """
-    steady = parts.excited is None and len(set(parts.profile.speeds)) == 1
+    steady = parts.excited is None and parts.motor is None and len(set(parts.profile.speeds)) == 1
     steady = steady and not any(math.isfinite(bearing.clearance) for bearing in parts.bearings)
     if not steady or not all(is_constant(one) or parts.is_linear(one) for one in parts.bearings):
         return None
@@ -307,29 +328,37 @@ class ModalArrays(NamedTuple):
     Attributes
     ----------
     values, push, sense : ndarray of complex
-        Values, push and sense as for a `ModalRotor`; where a bearing adds a mass, `sense` goes on with ax, ay
-        of each journal.
+        Values, push and sense as for a `ModalRotor`. Where a bearing adds a mass, `sense` goes on with ax, ay
+        of each journal, and on a motor with the acceleration of the unbalance. There `push` ends with zeros,
+        for the angular acceleration.
     direct : ndarray, shape (n_rows, n_channels), or None
         These accelerations per force at the same moment; None without.
+    rates : ndarray of complex, shape (n_accelerations, n_modes), or None
+        These accelerations per rate of the modal coordinates; None without.
     """
 
     values: compiled_rotor.Complex
     push: compiled_rotor.Complex
     sense: compiled_rotor.Complex
     direct: Array | None = None
+    rates: compiled_rotor.Complex | None = None
 
     @classmethod
     def of(cls, modal: compiled_rotor.ModalRotor) -> ModalArrays:
         """Return those of a rotor."""
-        sense, direct = modal.sense, None
-        if modal.is_heavy:
-            rates = sense.reshape(-1, 2, 2, len(modal.values))[:, 1].reshape(-1, len(modal.values))
-            direct = np.vstack([np.zeros((len(sense), modal.push.shape[1])), (rates @ modal.push).real])
+        sense, push, direct = modal.sense, modal.push, None
+        every = [sense.reshape(-1, 2, 2, len(modal.values))[:, 1].reshape(-1, len(modal.values))]
+        if modal.parts.motor:
+            every.append(compiled_rotor.unbalance_rates(modal))
+            push = np.column_stack([push, np.zeros(len(push))])
+        rates = np.vstack(every[not modal.is_heavy :]) if modal.is_heavy or modal.parts.motor else None
+        if rates is not None:
+            direct = np.vstack([np.zeros((len(sense), push.shape[1])), (rates @ push).real])
             sense = np.vstack([sense, rates * modal.values])
-        values, push, sense = (
-            np.ascontiguousarray(row, dtype=complex) for row in (modal.values, modal.push, sense)
-        )
-        return cls(values, push, sense, direct)
+            rates = np.ascontiguousarray(rates, dtype=complex)
+        rows = modal.values, push, sense
+        values, push, sense = (np.ascontiguousarray(row, dtype=complex) for row in rows)
+        return cls(values, push, sense, direct, rates)
 
     def struct(self) -> Any:
         """Return them as the C library reads them, while this object lives."""
@@ -433,6 +462,7 @@ class End(IntEnum):
     BUSY = 3
     BROKEN = 4
     NO_MEMORY = 5
+    BAND = 6
 
 
 class March:
@@ -453,6 +483,8 @@ class March:
         Speed of the modes, where the matrices depend on the speed and that is not always this one.
     stages : int
         Collocation nodes.
+    band : float [rad/s]
+        How far the speed that follows from a motor may leave that of the modes.
     """
 
     def __init__(
@@ -465,13 +497,19 @@ class March:
         duration: float,
         speed: float | None = None,
         stages: int = STAGES,
+        band: float = math.inf,
     ) -> None:
         self.modal, self.state = modal, np.array(state, dtype=complex)
         self._duration = duration
         self._kept = ModalArrays.of(modal), radau_scheme(stages), compiled_rotor.JournalFilms.of_rotor(modal)
         self._numbers = *profile_rows(modal.parts.profile), journal_scales(modal)
-        spins = speed is not None and modal.parts.turns and set(modal.parts.profile.speeds) != {speed}
+        motor = modal.parts.motor
+        changes = motor is not None or set(modal.parts.profile.speeds) != {speed}
+        spins = speed is not None and modal.parts.turns and changes
         self._spin = compiled_rotor.spin_rates(modal) if spins else None
+        self._torque: tuple[FilmCall, ...] = () if motor is None else (torque_call(motor.torque),)
+        self._rubbing = compiled_rotor.rubbing(modal)
+        self.turns = np.empty((0, 3))
         excited = modal.parts.excited
         self._excited = None if excited is None else np.ascontiguousarray(excited)
         slots, steps = constant("RF_SLOTS"), constant("RF_STEPS")
@@ -484,6 +522,7 @@ class March:
             structure("rf_speeds")(times, *(row.ctypes.data for row in self._numbers[:4])),
             spin_struct(speed, self._spin),
             excitation_struct(self._excited),
+            self._motor_struct(motor, band),
             self._numbers[4].ctypes.data,
             longest,
             SHORTEST * duration,
@@ -518,13 +557,41 @@ class March:
         """Whether a film was asked beyond its map."""
         return bool(self._struct.left_map)
 
-    def resume(self, time: float, state: compiled_rotor.Complex, step: int) -> None:
-        """Go on at a time [s] with a state in modal coordinates, and the step of another march if not -1."""
+    def _motor_struct(self, motor: MotorDrivenRotor | None, band: float) -> Any:
+        made = structure("rf_motor")
+        if motor is None:
+            return made()
+        rubbed = None if self._rubbing is None else self._rubbing.ctypes.data
+        gravity = (c_double * 2)(*(self.modal.parts.structure.unbalance.T @ motor.gravity))
+        numbers = motor.inertia, rate_of(self.modal), band, gravity
+        return made(*self._torque[0][:2], rubbed, None, *numbers)
+
+    @property
+    def turn(self) -> tuple[float, float]:
+        """Angle [rad] and speed [rad/s] that follow from a motor."""
+        return self._struct.motor.angle, self._struct.motor.speed
+
+    @property
+    def first_acceleration(self) -> float:
+        """Angular acceleration at t = 0 that follows from a motor [rad/s2]."""
+        return float(self._struct.motor.first)
+
+    def resume(
+        self, time: float, state: compiled_rotor.Complex, step: int, turn: tuple[float, float] = (0.0, 0.0)
+    ) -> None:
+        """Go on at a time [s] with a state in modal coordinates, and the step of another march if not -1.
+
+        The turn is the angle [rad] and the speed [rad/s] of a rotor on a motor.
+        """
         self._struct.time, self.state[:] = time, state
+        self._struct.motor.angle, self._struct.motor.speed = turn
         self._struct.step = step if step >= 0 else self._struct.step
 
     def to(self, stop: float, grid: Array) -> compiled_rotor.Complex:
         """Integrate to a time and return the modal coordinates at the times of `grid` after the last stop.
+
+        On a motor `turns` is then angle, speed and acceleration at the same times, shape (n, 3), and the run
+        ends sooner where the speed leaves that of the modes too far.
 
         Raises
         ------
@@ -534,15 +601,18 @@ class March:
         out, place = np.empty((len(grid), len(self.state)), dtype=complex), c_int64()
         times = np.ascontiguousarray(grid, dtype=float)
         arguments = times.ctypes.data, len(times), byref(place), out.ctypes.data
+        turns = np.empty((len(grid) * bool(self._torque), 3))
+        self._struct.motor.turns = turns.ctypes.data
         end = End.BUSY
         while end == End.BUSY:
             end = End(loops()["rf_march_to"](byref(self._struct), stop, BUDGET, *arguments))
-        raise_foreign(self.modal.calls)
+        raise_foreign((*self.modal.calls, *self._torque))
+        self.turns = turns[: place.value]
         if end == End.NO_MEMORY:
             raise MemoryError("no memory for the steps of a rotor")
-        if end != End.DONE:
+        if end not in (End.DONE, End.BAND):
             raise self._failure(end, out[: place.value])
-        return out
+        return out[: place.value]
 
     def _failure(self, end: End, kept: compiled_rotor.Complex) -> ContactError | ConvergenceError:
         at = f"at t = {self.time:.9g} s"
@@ -550,7 +620,9 @@ class March:
             return ContactError(f"journal{of_station(self._closest())} reached the wall {at}", kept)
         if end == End.BROKEN:
             return ConvergenceError(
-                f"film force must be finite and the forces of a step solvable, {at}", kept
+                f"film force{' and drive torque' * bool(self._torque)} must be finite and the forces of a "
+                f"step solvable, {at}",
+                kept,
             )
         return ConvergenceError(f"integration needs steps below {SHORTEST:g} of the duration {at}", kept)
 
@@ -585,7 +657,8 @@ def journal_scales(modal: compiled_rotor.ModalRotor) -> Array:
     rate, lengths = rate_of(modal), modal.parts.lengths.copy()
     lengths[len(modal.parts.names) * modal.parts.points :] = math.inf
     motion = [np.array([1.0, 1.0, 1.0 / rate, 1.0 / rate]) / c for c in lengths]
-    return np.concatenate([*motion, np.zeros(2 * len(lengths) * modal.is_heavy)])
+    further = 2 * len(lengths) * modal.is_heavy + 2 * bool(modal.parts.motor)
+    return np.concatenate([*motion, np.zeros(further)])
 
 
 # A run of a rotor whose speed may change its gyroscopic effect and rotating damping: march after march.
@@ -606,7 +679,8 @@ def stretches(
     largest = max(profile.speeds, key=abs)
     width = abs(largest) / bands
     ground = () if parts.excited is None else parts.excited[0].tolist()
-    kinks = sorted({0.0, *(t for t in (*profile.times, *ground) if 0.0 < t < duration), duration})
+    driven = breakpoints(parts.motor) if parts.motor else ()
+    kinks = sorted({0.0, *(t for t in (*profile.times, *ground, *driven) if 0.0 < t < duration), duration})
     for begin, end in pairwise(kinks):
         speed, slope = profile.speed(begin), profile.acceleration(begin)
         if not parts.turns or slope == 0.0:
@@ -621,6 +695,16 @@ def stretches(
             yield until, width * float(np.floor(middle / width) + 0.5)
 
 
+def band_of(parts: compiled_rotor.Parts, speed: float) -> tuple[float, float]:
+    """Return the middle of the band of a speed that a motor leads to, and its width [rad/s].
+
+    The bands are wider beyond the largest speed that is known before the run.
+    """
+    largest = parts.nominal_speed or SLOWEST
+    width = largest * 2.0 ** max(0.0, math.ceil(math.log2(max(abs(speed), largest) / largest))) / BANDS
+    return width * (math.floor(speed / width) + 0.5), width
+
+
 class RunUp:
     """One run of a rotor in modes, in those of another speed where the speed has left a band.
 
@@ -632,14 +716,22 @@ class RunUp:
     duration : float [s]
     march : callable
         `March` with its error and step, of `modal`, `state` and `speed`.
+    turn : tuple of two float [rad], [rad/s]
+        Angle and speed at t = 0 of a rotor on a motor.
     """
 
     def __init__(
-        self, parts: compiled_rotor.Parts, state: Array, duration: float, march: Callable[..., March]
+        self,
+        parts: compiled_rotor.Parts,
+        state: Array,
+        duration: float,
+        march: Callable[..., March],
+        turn: tuple[float, float],
     ) -> None:
         self.parts, self._state, self._duration, self._begun = parts, state, duration, march
         self._marches: dict[float, March] = {}
         self._time, self._step = 0.0, -1
+        self._turn, self._first, self._turns = turn, np.array([[*turn, 0.0]]), [np.empty((0, 3))]
 
     @property
     def work(self) -> dict[str, int]:
@@ -658,17 +750,35 @@ class RunUp:
             With the states since the last stretch as partial result.
         """
         for end, speed in stretches(self.parts, self._duration):
-            march = self._march(speed)
-            march.resume(self._time, march.modal.modal(self._state), self._step)
-            inside = grid[(grid > self._time) & (grid <= end)]
-            try:
-                kept = march.to(end, inside)
-            except (ContactError, ConvergenceError) as failure:
-                partial = march.modal.physical(failure.partial.T).T
-                raise type(failure)(str(failure), partial) from failure
-            self._state = march.modal.physical(march.state)
-            self._time, self._step = end, march.step
-            yield march.modal.physical(kept.T).T
+            while self._time < end:
+                yield self._stretch(end, speed, grid)
+
+    def turn(self, time: Array) -> Array:
+        """Return angle, speed and angular acceleration at the times of the states so far, shape (3, n)."""
+        if self.parts.motor is None:
+            return self.parts.profile.turn(time)
+        first = self._first[: int(time.size > 0 and time[0] == 0.0)]
+        return np.concatenate([first, *self._turns]).T
+
+    def _stretch(self, end: float, speed: float, grid: Array) -> Array:
+        """Return the states at the times of `grid` until an end, or until a motor leaves its band."""
+        band = math.inf
+        if self.parts.motor:
+            speed, band = band_of(self.parts, self._turn[1])
+        march = self._march(speed, band)
+        march.resume(self._time, march.modal.modal(self._state), self._step, self._turn)
+        inside, begins = grid[(grid > self._time) & (grid <= end)], self._time == 0.0
+        try:
+            kept = march.to(end, inside)
+        except (ContactError, ConvergenceError) as failure:
+            partial = march.modal.physical(failure.partial.T).T
+            raise type(failure)(str(failure), partial) from failure
+        finally:
+            self._turns.append(march.turns)
+            self._first[:, 2] = march.first_acceleration if begins else self._first[:, 2]
+        self._state, self._turn = march.modal.physical(march.state), march.turn
+        self._time, self._step = march.time, march.step
+        return march.modal.physical(kept.T).T
 
     def warn(self) -> None:
         """Warn if a film was asked beyond its map."""
@@ -677,10 +787,11 @@ class RunUp:
                 warn_beyond(march.modal.calls)
                 return
 
-    def _march(self, speed: float) -> March:
+    def _march(self, speed: float, band: float) -> March:
         if speed not in self._marches:
             modal = compiled_rotor.modal_rotor(self.parts, speed)
-            self._marches[speed] = self._begun(modal=modal, state=modal.modal(self._state), speed=speed)
+            state = modal.modal(self._state)
+            self._marches[speed] = self._begun(modal=modal, state=state, speed=speed, band=band)
         return self._marches[speed]
 
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from ctypes import byref
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -33,13 +34,13 @@ from ..native.structs import structure
 from ..rotors import (
     CrackedRotor,
     FlexibleRotor,
+    MotorDrivenRotor,
     MountedRotor,
     RigidRotor,
     SpeedProfile,
     TimeExcitedRotor,
     mount,
 )
-from ..rotors.profile import Turning
 from ..rotors.structure import (
     NOMINAL_LENGTH,
     MatrixRotor,
@@ -69,6 +70,9 @@ It grows with the highest frequency of a shaft, which goes with the square of th
 """
 
 LARGEST_CONDITION = 1e10
+
+FARTHEST = 1e6
+"""Largest displacement of a rest on springs, in clearances: roundoff of 1e-10 is left of motion about it."""
 
 
 class StationEquations(NamedTuple):
@@ -112,6 +116,8 @@ class Parts(NamedTuple):
         Those bearings that are part of the linear equations: in C they have no force.
     over_time : bool
         Whether it is taken apart for a run over time.
+    motor : MotorDrivenRotor or None
+        The rotor, where a motor drives it: its profile is then the speed at t = 0.
     """
 
     structure: Structure
@@ -123,6 +129,7 @@ class Parts(NamedTuple):
     moved: Array = np.zeros((0, 0))
     linear: tuple[StationEquations, ...] = ()
     over_time: bool = False
+    motor: MotorDrivenRotor | None = None
 
     @property
     def points(self) -> int:
@@ -165,8 +172,8 @@ class Parts(NamedTuple):
 
     @property
     def nominal_speed(self) -> float:
-        """Largest angular speed [rad/s], 0 where it does not turn."""
-        return max(abs(value) for value in self.profile.speeds)
+        """Largest angular speed [rad/s], 0 where it does not turn; of a motor that known before a run."""
+        return self.motor.nominal_speed if self.motor else max(abs(value) for value in self.profile.speeds)
 
     @property
     def turns(self) -> bool:
@@ -285,14 +292,15 @@ def take_apart(mounted: MountedRotor, *, over_time: bool = False) -> Parts:
         If the rotor is none with matrices, rests in no bearing, or in one with states.
     """
     found = mounted.all_bearings
-    bare = mounted.bare
+    bare: Any = mounted.bare
     around = (TimeExcitedRotor, CrackedRotor) if over_time else (TimeExcitedRotor,)
-    structure, profile = _structure(bare.rotor if isinstance(bare, around) else bare)
+    motor = bare if over_time and type(bare) is MotorDrivenRotor else None
+    structure, profile = _structure(bare.rotor if motor or isinstance(bare, around) else bare)
     names = [name for name in structure.stations if name in found]
     bearings = [found[name] for name in names]
     if not names:
         raise InputError("rotor must rest in at least one bearing: mount(rotor, {station: bearing})")
-    linear = _linear_reactions(structure, profile, found) if over_time else ()
+    linear = _linear_reactions(structure, _speeds(mounted), found) if over_time else ()
     known = {one.station for one in linear}
     moving = [name for name in names if found[name].states and name not in known]
     if moving:
@@ -310,7 +318,14 @@ def take_apart(mounted: MountedRotor, *, over_time: bool = False) -> Parts:
     rows = [_rows(structure, names, bearings, tilted=tilted), *(one.rotor.weakness[0] for one in cracked)]
     every = *bearings, *cracked
     parts = Parts(
-        structure, profile, every, tuple(names), np.concatenate(rows), linear=linear, over_time=over_time
+        structure,
+        profile,
+        every,
+        tuple(names),
+        np.concatenate(rows),
+        linear=linear,
+        over_time=over_time,
+        motor=motor,
     )
     if isinstance(bare, TimeExcitedRotor):
         moved: Array = np.linalg.solve(parts.mass, structure.mass @ bare.columns).astype(float)
@@ -319,15 +334,15 @@ def take_apart(mounted: MountedRotor, *, over_time: bool = False) -> Parts:
 
 
 def _linear_reactions(
-    structure: Structure, profile: SpeedProfile, bearings: Mapping[str, Any]
+    structure: Structure, speeds: Sequence[float], bearings: Mapping[str, Any]
 ) -> tuple[StationEquations, ...]:
     """Return bearings that become part of the linear equations, in the order of their states."""
     every = []
     for name, bearing in bearings.items():
-        system = port.linear_system(bearing, profile.speeds)
+        system = port.linear_system(bearing, speeds)
         if system is not None:
             still = np.zeros(2)
-            mass = port.mass_of(bearing, still, still, profile.speeds[0])
+            mass = port.mass_of(bearing, still, still, speeds[0])
             every.append(StationEquations(name, bearing, system, freedom_rows(structure, name), mass))
     return tuple(every)
 
@@ -398,11 +413,34 @@ def state_matrices(parts: Parts, speed: float) -> tuple[Array, Array, Array]:
     )
 
 
-def turning_pairs(parts: Parts, time: Array) -> Array:
-    """Return the pairs that an unbalance makes forces of, at some times [s], shape (n_times, 2)."""
-    shaft = Turning()
-    shaft.speed = parts.profile
-    return np.array([shaft.rotating(t) for t in time]).reshape(-1, 2)
+def turning_pairs(turn: Array) -> Array:
+    """Return the pairs that an unbalance makes forces of, shape (n, 2), of angles, speeds, accelerations."""
+    angle, speed, acceleration = turn
+    cos, sin = np.cos(angle), np.sin(angle)
+    return np.column_stack([speed**2 * cos + acceleration * sin, speed**2 * sin - acceleration * cos])
+
+
+def unbalance_rates(modal: ModalRotor) -> Complex:
+    """Return the velocity of the unbalance, U' q', per modal coordinate, shape (2, n_modes)."""
+    unbalance = modal.parts.structure.unbalance
+    return np.asarray(unbalance.T @ modal.shapes[len(unbalance) : 2 * len(unbalance)])
+
+
+def rubbing(modal: ModalRotor) -> Array | None:
+    """Return the torque of rotating damping without speed and per rad/s, negative, as `motor.h` has it.
+
+    Returns
+    -------
+    ndarray, shape (2, 2 n_modes + 1, 2 n_modes + 1), or None
+        Quadratic forms of real and imaginary parts of the modal coordinates and 1; None without damping.
+    """
+    driven, n = modal.parts.motor, len(modal.parts.structure.weight)
+    if driven is None or not np.any(modal.parts.structure.circulation):
+        return None
+    whole = np.column_stack([modal.shapes.real, -modal.shapes.imag, modal.rest])
+    turned = driven.quarter_turn @ whole[:n]
+    left = turned.T @ driven.rotating_damping
+    return np.array([left @ whole[n : 2 * n], left @ turned])
 
 
 def spin_rates(modal: ModalRotor) -> tuple[Array, Array]:
@@ -445,6 +483,12 @@ def modal_rotor(parts: Parts, speed: float) -> ModalRotor:
     (values, shapes, inverse, condition), K0, C0, shifted = best
     if not condition < LARGEST_CONDITION:
         raise ConvergenceError(f"modes of the rotor must be distinct, got a condition of {condition:.3g}")
+    try:
+        rest = np.asarray(-np.linalg.solve(shifted, weight))
+    except np.linalg.LinAlgError:
+        rest = np.full(len(weight), np.inf)
+    if not np.abs(rest).max() <= FARTHEST * parts.lengths.max():
+        raise ConvergenceError("weight must leave the rotor on springs at its journals, got one that falls")
     return ModalRotor(
         parts=parts,
         values=values,
@@ -452,7 +496,7 @@ def modal_rotor(parts: Parts, speed: float) -> ModalRotor:
         inverse=inverse,
         push=inverse @ B,
         sense=journal_rows(parts) @ shapes,
-        rest=np.asarray(-np.linalg.solve(shifted, weight)),
+        rest=rest,
         spring=K0,
         damper=C0,
         calls=tuple(map(parts.call, parts.bearings)),
@@ -592,7 +636,7 @@ def compiled_form(rotor: Dynamic, reaction: Any) -> MountedRotor | None:
       journal bearing or a damper whose film has a kernel (map, short film, grooved map, two-dimensional
       film), or one of these beside springs;
     - the rotor is a `RigidRotor` or a `FlexibleRotor`, mounted or not, whose equations no subclass has
-      changed, without a loss factor; on ground that shakes, or with a crack too.
+      changed, without a loss factor; on ground that shakes, with a crack, or driven by a motor too.
 
     Parameters
     ----------
@@ -621,10 +665,8 @@ def takes_forces(rotor: Dynamic, bearings: Iterable[Any]) -> bool:
     every = (*bearings, *(rotor.all_bearings.values() if isinstance(rotor, MountedRotor) else ()))
     if not is_linear(rotor, over_time=True):
         return False
-    bare, cracked = _bare(rotor)
-    still = all(
-        not film.states or port.linear_system(film, bare.profile.speeds) is not None for film in every
-    )
+    cracked, speeds = type(_bare(rotor)) is CrackedRotor, _speeds(rotor)
+    still = all(not film.states or port.linear_system(film, speeds) is not None for film in every)
     planar = all(port.freedoms_of(film) == PLANAR or feels_tilt(film) for film in every)
     tilted = any(map(feels_tilt, every))
     heavy = any(port.inertial(film) is not None for film in every)
@@ -638,21 +680,35 @@ def _is_compiled(bearing: Any) -> bool:
     return fast or port.compiled_force(bearing) is not None
 
 
-def _bare(rotor: Dynamic) -> tuple[Any, bool]:
-    """Return a rotor without its bearings, what excites it and its crack, and whether it has one."""
-    bare: Any = rotor.bare if isinstance(rotor, MountedRotor) else rotor
-    cracked = type(bare) is CrackedRotor
-    return (bare.rotor if cracked or isinstance(bare, TimeExcitedRotor) else bare), cracked
+AROUND = CrackedRotor, MotorDrivenRotor
+"""What changes the equations of a rotor in a run over time only."""
+
+
+def _bare(rotor: Dynamic) -> Any:
+    """Return a rotor without its bearings."""
+    return rotor.bare if isinstance(rotor, MountedRotor) else rotor
+
+
+def _inner(rotor: Dynamic) -> Any:
+    """Return a rotor without its bearings, what excites or drives it, and its crack."""
+    bare = _bare(rotor)
+    return bare.rotor if type(bare) in AROUND or isinstance(bare, TimeExcitedRotor) else bare
+
+
+def _speeds(rotor: Dynamic) -> tuple[float, ...]:
+    """Return the speeds of a run; that of a motor has more than the one at t = 0."""
+    known: tuple[float, ...] = _inner(rotor).profile.speeds
+    return (*known, math.inf) if type(_bare(rotor)) is MotorDrivenRotor else known
 
 
 def is_linear(rotor: Dynamic, *, over_time: bool = False) -> bool:
     """Return whether a rotor, in bearings or not, has the equations of its matrices.
 
-    In a run over time it may have a crack.
+    In a run over time it may have a crack, or a motor.
     """
-    bare, cracked = _bare(rotor)
-    if cracked and not over_time:
+    if type(_bare(rotor)) in AROUND and not over_time:
         return False
+    bare = _inner(rotor)
     base = next((kind for kind in (RigidRotor, FlexibleRotor) if isinstance(bare, kind)), None)
     if isinstance(bare, FlexibleRotor) and bare.assembly.others:
         return False
@@ -676,12 +732,14 @@ def starts(
 
     With each come its state at t = 0, and what the shapes do not show; None for the whole rotor.
     """
-    rotor = mounted.bare
+    bare: Any = mounted.bare
+    rotor = _inner(mounted) if type(bare) is MotorDrivenRotor else bare
     if not whole and isinstance(rotor, FlexibleRotor) and rotor.assembly.hysteresis is None:
-        for model in models(rotor, FREQUENCY * rotor.nominal_speed):
+        for model in models(rotor, FREQUENCY * bare.nominal_speed):
             if model.space is None:
                 break
-            small = mount(MatrixRotor(rotor, model.structure), mounted.all_bearings)
+            small: Any = MatrixRotor(rotor, model.structure)
+            small = mount(small if rotor is bare else replace(bare, rotor=small), mounted.all_bearings)
             begun = _within(model, state)
             yield small, begun, neglected_motion(model, take_apart(small, over_time=True), state, begun)
     yield mounted, state, None
@@ -720,7 +778,7 @@ class NeglectedMotion(NamedTuple):
     by_force: Array
     begun: Array
 
-    def largest(self, run: Trajectory, states: Array) -> float:
+    def largest(self, run: Trajectory, states: Array, turn: Array) -> float:
         """Return the largest displacement of a journal at the times of a run, in clearances.
 
         Parameters
@@ -728,11 +786,11 @@ class NeglectedMotion(NamedTuple):
         run : Trajectory
             Run of the rotor in its shapes.
         states : ndarray, shape (n_times, 2 n)
+        turn : ndarray, shape (3, n_times)
+            Angle, speed and angular acceleration.
         """
-        parts, time = self.parts, run.time
-        profile = parts.profile
-        speed = np.array([profile.speed(t) for t in time])[:, None]
-        forces = np.column_stack([*point_forces(parts, run), turning_pairs(parts, time), np.ones(len(time))])
+        parts, time, speed = self.parts, run.time, turn[1][:, None]
+        forces = np.column_stack([*point_forces(parts, run), turning_pairs(turn), np.ones(len(time))])
         steady, push, weight = state_matrices(parts.alone, 0.0)
         states = states[:, : len(steady)]
         place, velocity = np.hsplit(states, 2)

@@ -24,7 +24,7 @@ from ..core.results import Trajectory
 from ..core.signals import Signal
 from ..native import Status
 from ..native.film_call import MASSLESS, FilmCall
-from ..rotors import CrackedRotor
+from ..rotors import CrackedRotor, LinearMotor
 from ..rotors.structure import station_name
 
 
@@ -170,6 +170,18 @@ class CrackForce(NamedTuple):
             return lost @ np.array(state[:2]), np.hstack([lost, np.zeros((2, 3))])
 
         return _call_of(released, [])
+
+
+def torque_call(torque: Any) -> FilmCall:
+    """Return the torque of a motor over (time, speed) in C, one that calls back where it is not."""
+    if type(torque) is LinearMotor:
+        return FilmCall.of_numbers("rf_line_torque_at", torque.line)
+
+    def driven(state: Any) -> tuple[Array, Array]:
+        at = state[0], state[1]
+        return np.array([torque.torque(*at)], dtype=float), np.array([torque.slope(*at)], dtype=float)
+
+    return _call_of(driven, [])
 
 
 def feels_tilt(bearing: Any) -> bool:

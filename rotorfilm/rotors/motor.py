@@ -76,6 +76,18 @@ class LinearMotor:
         return -self.stall_torque / self._largest - self.resistance
 
     @property
+    def nominal_speed(self) -> float:
+        """Largest idle speed [rad/s], without its sign."""
+        return self._largest
+
+    @property
+    def line(self) -> Array:
+        """The torque as the C library reads it (`rf_line_torque_at` of native/loops/motor.h)."""
+        profile = self._profile
+        slope = self.stall_torque / self._largest
+        return np.array([slope, self.resistance, len(profile.times), *profile.times, *profile.speeds])
+
+    @property
     def breakpoints(self) -> tuple[float, ...]:
         """Times [s] at which the idle speed has kinks."""
         return self._profile.times if len(self._profile.times) > 1 else ()
@@ -180,6 +192,11 @@ class MotorDrivenRotor(AroundStructure):
         return np.concatenate([self.rotor.initial_state, [0.0, float(self.rotor.speed)]])  # type: ignore[arg-type]
 
     @property
+    def nominal_speed(self) -> float:
+        """Largest speed [rad/s] that is known before a run: that at t = 0, and what the torque says."""
+        return max(abs(float(self.rotor.speed)), getattr(self.torque, "nominal_speed", 0.0))  # type: ignore[arg-type]
+
+    @property
     def breakpoints(self) -> tuple[float, ...]:
         """Times [s] at which the torque has kinks."""
         return breakpoints(self.torque)
@@ -222,7 +239,7 @@ class MotorDrivenRotor(AroundStructure):
         motion = np.append(turn.v, turn.speed)
         kinetic = 0.5 * motion @ self._inertias(turn) @ motion
         return float(
-            kinetic + 0.5 * turn.q @ s.stiffness @ turn.q - s.weight @ turn.q - self._gravity @ turn.outward
+            kinetic + 0.5 * turn.q @ s.stiffness @ turn.q - s.weight @ turn.q - self.gravity @ turn.outward
         )
 
     def _turn(self, x: ArrayLike) -> _Turn:
@@ -242,15 +259,15 @@ class MotorDrivenRotor(AroundStructure):
         """Return what acts on the coordinates and on the angle."""
         s, w = self.rotor.structure, turn.speed
         held = (s.damping + w * s.gyroscopic) @ turn.v + (s.stiffness + w * s.circulation) @ turn.q
-        turned = self._turned @ turn.q
-        rubbed = turned @ self._rotating @ (turn.v - w * turned)
-        torque = self.torque.torque(t, w) + self._gravity @ turn.across + rubbed
+        turned = self.quarter_turn @ turn.q
+        rubbed = turned @ self.rotating_damping @ (turn.v - w * turned)
+        torque = self.torque.torque(t, w) + self.gravity @ turn.across + rubbed
         return np.append(self._push @ u + s.weight + w * w * turn.outward - held, torque)
 
     def _load_slopes(self, t: float, turn: _Turn) -> Array:
         """Return the derivatives of `_loads` by the state."""
         s, w = self.rotor.structure, turn.speed
-        turned, inner = self._turned @ turn.q, self._rotating
+        turned, inner = self.quarter_turn @ turn.q, self.rotating_damping
         by_turned = inner @ (turn.v - w * turned) - w * (inner.T @ turned)
         by_angle, by_speed = w * w * turn.across, 2.0 * w * turn.outward
         by_speed = by_speed - s.gyroscopic @ turn.v - s.circulation @ turn.q
@@ -261,8 +278,8 @@ class MotorDrivenRotor(AroundStructure):
             by_angle[:, None],
             by_speed[:, None],
         ]
-        by_fall = float(-self._gravity @ turn.outward)
-        last = [self._turned.T @ by_turned, inner.T @ turned, np.array([by_fall, on_speed])]
+        by_fall = float(-self.gravity @ turn.outward)
+        last = [self.quarter_turn.T @ by_turned, inner.T @ turned, np.array([by_fall, on_speed])]
         return np.vstack([np.hstack(columns), np.concatenate(last)])
 
     @cached_property
@@ -276,19 +293,19 @@ class MotorDrivenRotor(AroundStructure):
         return force_rows(self.rotor.structure).T
 
     @cached_property
-    def _turned(self) -> Array:
+    def quarter_turn(self) -> Array:
         """What turns a displacement by +90 deg, shape (N, N)."""
         s = self.rotor.structure
         turn = np.kron(np.array([[0.0, -1.0], [1.0, 0.0]]), np.eye(len(s.coordinates)))
         return np.asarray(beside(turn, np.zeros((len(s.others),) * 2)))
 
     @cached_property
-    def _rotating(self) -> Array:
+    def rotating_damping(self) -> Array:
         """The rotating damping C_i: H q is that of a displacement turned by -90 deg."""
-        return self.rotor.structure.circulation @ self._turned
+        return self.rotor.structure.circulation @ self.quarter_turn
 
     @cached_property
-    def _gravity(self) -> Array:
+    def gravity(self) -> Array:
         """The acceleration of gravity of each coordinate."""
         rotor = self.rotor
         if isinstance(rotor, RigidRotor):

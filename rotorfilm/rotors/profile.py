@@ -133,6 +133,15 @@ class SpeedProfile:
         """Return the angle turned since t = 0, in rad: the exact integral of the speed."""
         return self._turned(t) - self._angle_at_zero
 
+    def turn(self, times: Array) -> Array:
+        """Return angle, speed and angular acceleration at many times [s], shape (3, n)."""
+        place = np.searchsorted(self.times, times, side="right")
+        at = np.maximum(place - 1, 0)
+        slope = np.where(place > 0, np.append(self._slopes, 0.0)[at], 0.0)
+        passed, begin = times - np.array(self.times)[at], np.array(self.speeds)[at]
+        angle = np.array(self._angles)[at] + passed * (begin + 0.5 * slope * passed)
+        return np.array([angle - self._angle_at_zero, begin + slope * passed, slope])
+
     @cached_property
     def _slopes(self) -> tuple[float, ...]:
         return tuple((np.diff(self.speeds) / np.diff(self.times)).tolist())

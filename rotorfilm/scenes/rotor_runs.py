@@ -79,13 +79,10 @@ class PreparedRun(NamedTuple):
         Arguments of `simulate`.
     start : float [s]
         When the run begins in the time of the scene.
-    station : str
-        Station of the bearing whose signals `simulate` returns without it; mostly empty.
     """
 
     arguments: dict[str, Any]
     start: float
-    station: str
 
 
 class _Parts(NamedTuple):
@@ -125,7 +122,7 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
     Notes
     -----
     A contact ends the run and is no error. Samples are 24 in a turn at the highest speed, 200 001 at most.
-    A shaft on a motor, and one on bearings with states, is integrated by scipy, all else in C.
+    A shaft on bearings with states of their own is integrated by scipy, all else in C.
     """
     report(0.0, "equilibrium")
     ready = prepared_run(scene)
@@ -150,9 +147,9 @@ def prepared_run(scene: Scene) -> PreparedRun:
     start = scene.excitation.start if isinstance(scene.excitation, shared_tables.BladeLossTable) else 0.0
     scene = after_loss(scene)
     parts = _parts(scene)
-    rotor, reaction, station = _halves(scene, parts)
+    rotor, reaction = _halves(scene, parts)
     known = {"duration": parts.duration, "times": run_times(parts.duration, parts.fastest), "rtol": RTOL}
-    return PreparedRun({"rotor": rotor, "reaction": reaction, **known}, start, station)
+    return PreparedRun({"rotor": rotor, "reaction": reaction, **known}, start)
 
 
 def finished_run(ready: PreparedRun, found: Trajectory | RotorfilmError) -> RotorRun:
@@ -161,7 +158,7 @@ def finished_run(ready: PreparedRun, found: Trajectory | RotorfilmError) -> Roto
     if not isinstance(partial, Trajectory):
         assert isinstance(found, RotorfilmError)
         raise found
-    start, trajectory = ready.start, _at_station(partial, ready.station)
+    start, trajectory = ready.start, partial
     contact = start + float(trajectory.time[-1]) if isinstance(found, ContactError) else None
     places = _places(trajectory)
     moved = {name: np.hypot(*(place - place[:, :1])) for name, place in places.items()}
@@ -254,33 +251,15 @@ def _rigid(scene: Scene) -> tuple[rotors.RigidRotor, dict[str, Reaction]]:
     return rotor, {"": bearing}
 
 
-def _halves(scene: Scene, parts: _Parts) -> tuple[Any, Any, str]:
-    """Return the rotor and what it runs on, as `simulate` takes them, and the station of a single bearing."""
+def _halves(scene: Scene, parts: _Parts) -> tuple[Any, Any]:
+    """Return the rotor and what it runs on, as `simulate` takes them."""
     rotor: Any = parts.rotor
     if isinstance(scene.excitation, shared_tables.MotorTable):
-        return _on_motor(scene.excitation, parts)
+        table = scene.excitation
+        rotor = rotors.MotorDrivenRotor(rotor=rotor, inertia=table.inertia, torque=table.motor())
     if isinstance(scene.excitation, shared_tables.GroundTable):
         rotor = rotors.BaseExcitedRotor(rotor=rotor, base=scene.excitation.motion(parts.duration))
-    return rotor, parts.bearings[""] if isinstance(parts.rotor, rotors.RigidRotor) else parts.bearings, ""
-
-
-def _on_motor(table: shared_tables.MotorTable, parts: _Parts) -> tuple[Any, Any, str]:
-    """Return a rotor that a motor turns on all bearings except one, which is the other half of `simulate`."""
-    rotor, last = parts.rotor, next(reversed(parts.bearings))
-    if isinstance(rotor, rotors.ShaftRotor):
-        own = tuple(replace(one, name="") if one.name == last else one for one in rotor.stations)
-        rotor = replace(rotor, stations=own)
-    driven = rotors.MotorDrivenRotor(rotor=rotor, inertia=table.inertia, torque=table.motor())
-    others = {name: bearing for name, bearing in parts.bearings.items() if name != last}
-    mounted: Any = rotors.mount(driven, others) if others else driven
-    return mounted, parts.bearings[last], last
-
-
-def _at_station(found: Trajectory, station: str) -> Trajectory:
-    """Return a motion whose signals of a single journal have the name of its station."""
-    plain = {"x", "y", "vx", "vy", "force_x", "force_y"} if station else set()
-    signals = {f"{station}_{k}" if k in plain else k: row for k, row in found.signals.items()}
-    return replace(found, signals=signals)
+    return rotor, parts.bearings[""] if isinstance(parts.rotor, rotors.RigidRotor) else parts.bearings
 
 
 def _places(run: Trajectory) -> dict[str, Array]:

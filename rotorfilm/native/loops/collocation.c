@@ -8,7 +8,6 @@
 
 #define SMALL 0.5 /* |z| per moment below which they are summed as a series, from the highest down */
 #define MOST_TERMS 60
-#define MOST_COEFFICIENTS 16
 
 static rf_complex product(rf_complex a, rf_complex b)
 {
@@ -134,8 +133,8 @@ int rf_set_step_table(const rf_modes *rotor, const rf_scheme *scheme, double h, 
 {
     const int32_t s = scheme->stages, count = s + 1, modes = rotor->modes;
     const size_t block = (size_t)rotor->rows * (size_t)rotor->channels;
-    double polynomial[MOST_COEFFICIENTS] = {0.0};
-    if (count > MOST_COEFFICIENTS)
+    double polynomial[RF_MOST_NODES + 1] = {0.0};
+    if (s > RF_MOST_NODES)
         return RF_INVALID;
     rf_complex *w = malloc((size_t)(2 * count) * (size_t)modes * sizeof *w);
     if (!w)

@@ -20,12 +20,16 @@ typedef struct rf_complex {
 typedef struct rf_modes {
     int32_t modes;
     int32_t channels;         /* of u: two for each journal, two of the unbalance, those of an excitation */
-    int32_t rows;             /* x, y, vx, vy of each journal, and with added masses ax, ay of each */
+    int32_t rows;             /* x, y, vx, vy of each journal, then accelerations */
     const rf_complex *values; /* modes */
     const rf_complex *push;   /* modes x channels */
     const rf_complex *sense;  /* rows x modes */
-    const double *direct;     /* rows x channels: accelerations per force at the same moment; NULL without them */
+    /* Of ax, ay of each journal where films add masses, then of the unbalance where a motor drives it, else NULL: */
+    const double *direct;     /* rows x channels: accelerations per force at the same moment */
+    const rf_complex *rates;  /* accelerations x modes: per rate of the modal coordinates */
 } rf_modes;
+
+#define RF_MOST_NODES 15
 
 /* Nodes of a step and polynomials on them, coefficients by rising power. */
 typedef struct rf_scheme {

@@ -43,14 +43,17 @@ static int weigh(const rf_journals *journals, int32_t b, const double *state, co
 
 /* A journal without tilt: force[2], slope[2][4], of 6 columns with its acceleration. */
 static int planar(const rf_journals *journals, int32_t b, const double *at, const double *a, const double *turning,
-                  double *force, double *slope)
+                  double *force, double *slope, double *by_speed)
 {
     const int32_t width = rf_slope_width(journals);
     double state[6] = {at[0], at[1], at[2], at[3], turning[0], turning[1]}, jacobian[10];
     const int status = film_at(journals, b, 2, state, force, jacobian);
-    for (int i = 0; i < 2; ++i)
+    for (int i = 0; i < 2; ++i) {
         for (int j = 0; j < 4; ++j)
             slope[width * i + j] = jacobian[5 * i + j];
+        if (by_speed)
+            by_speed[i] = jacobian[5 * i + 4];
+    }
     if (!journals->masses || status >= RF_AT_WALL)
         return status;
     const int of_mass = weigh(journals, b, state, a, force, slope);
@@ -58,7 +61,8 @@ static int planar(const rf_journals *journals, int32_t b, const double *at, cons
 }
 
 /* A journal at two points: force[4], slope[4][8]. Freedoms are (x, y, tilt_x, tilt_y) = part (x, y of both). */
-static int tilted(const rf_journals *journals, int32_t b, const double *at, double speed, double *force, double *slope)
+static int tilted(const rf_journals *journals, int32_t b, const double *at, double speed, double *force, double *slope,
+                  double *by_speed)
 {
     const double h = journals->arms[b] > 0.0 ? 0.5 / journals->arms[b] : 0.0;
     const double part[4][4] = {{0.5, 0.0, 0.5, 0.0}, {0.0, 0.5, 0.0, 0.5}, {0.0, -h, 0.0, h}, {h, 0.0, -h, 0.0}};
@@ -72,22 +76,26 @@ static int tilted(const rf_journals *journals, int32_t b, const double *at, doub
     state[2 * freedoms] = speed;
     const int status = film_at(journals, b, freedoms, state, answer, jacobian);
     for (int r = 0; r < 4; ++r) {
+        double turned = 0.0;
         force[r] = 0.0;
         for (int q = 0; q < 8; ++q)
             slope[8 * r + q] = 0.0;
         for (int i = 0; i < freedoms; ++i) {
             force[r] += part[i][r] * answer[i];
+            turned += part[i][r] * jacobian[width * i + 2 * freedoms];
             for (int k = 0; k < 2 * freedoms; ++k)
                 for (int j = 0; j < 4; ++j)
                     slope[8 * r + 4 * (j / 2) + 2 * (k / freedoms) + j % 2] +=
                         part[i][r] * jacobian[width * i + k] * part[k % freedoms][j];
         }
+        if (by_speed)
+            by_speed[r] = turned;
     }
     return status;
 }
 
 int rf_set_forces(const rf_journals *journals, const double *motion, double speed, double turned, double *force,
-                  double *slope)
+                  double *slope, double *by_speed)
 {
     const int32_t points = journals->points, rows = 4 * points, width = rf_slope_width(journals);
     const double turning[2] = {speed, turned};
@@ -101,8 +109,9 @@ int rf_set_forces(const rf_journals *journals, const double *motion, double spee
                 return RF_AT_WALL;
         double *const to = force + 2 * points * b, *const by = slope + 2 * points * width * b;
         const double *a = journals->masses ? motion + 4 * journals->count + 2 * b : NULL;
-        const int status = points == 1 ? planar(journals, b, at, a, turning, to, by)
-                                       : tilted(journals, b, at, speed, to, by);
+        double *const faster = by_speed ? by_speed + 2 * points * b : NULL;
+        const int status = points == 1 ? planar(journals, b, at, a, turning, to, by, faster)
+                                       : tilted(journals, b, at, speed, to, by, faster);
         worst = status > worst ? status : worst;
         if (status >= RF_AT_WALL)
             return status;
@@ -127,7 +136,7 @@ int rf_journal_forces(const rf_journals *journals, int64_t samples, const double
     for (int64_t n = 0; n < samples && worst < RF_AT_WALL; ++n) {
         for (int32_t q = 0; q < 2 * forces; ++q)
             now[q] = motion[q * samples + n];
-        const int status = rf_set_forces(journals, now, speed, 0.0, answer, by);
+        const int status = rf_set_forces(journals, now, speed, 0.0, answer, by, NULL);
         worst = status > worst ? status : worst;
         for (int32_t q = 0; q < forces; ++q)
             force[q * samples + n] = answer[q];

@@ -46,9 +46,9 @@ static inline void rf_add_inertia(const double *mass, const double *slopes, cons
 
 /* Films' forces and springs (2 n) at one motion (4 n, and with added masses 2 n accelerations), and slopes by that
    of the same journal (2 n x rf_slope_width); the most severe status. `turned` is the angle of the shaft, which
-   films without tilt find behind their state. */
+   films without tilt find behind their state. Slopes by the speed go to `by_speed` (2 n) unless it is NULL. */
 int rf_set_forces(const rf_journals *journals, const double *motion, double speed, double turned, double *force,
-                  double *slope);
+                  double *slope, double *by_speed);
 
 /* Forces of films and springs (2 n rows) and slopes by x, y, vx, vy (2 n x 4 points rows) of motions (4 n
    rows), rows of `samples`, at one speed; the most severe status. */

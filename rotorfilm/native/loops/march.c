@@ -6,6 +6,7 @@
 
 #include "../solvers/dense.h"
 #include "march_step.h"
+#include "motor.h"
 #include "spin.h"
 
 #define WHOLE 1.0001 /* of a step that must fit before the stop */
@@ -120,7 +121,10 @@ static int64_t sample(const rf_march *march, double h, const double *grid, int64
     set_forced(march, at);
     for (; place < count && grid[place] <= march->time + h; ++place) {
         rf_complex *to = out + place * modes;
-        rf_set_integrals(&march->rotor, h, (grid[place] - march->time) / h, s, to, at->weights);
+        const double share = (grid[place] - march->time) / h;
+        rf_set_integrals(&march->rotor, h, share, s, to, at->weights);
+        if (march->motor.torque)
+            rf_set_turn(march, at, h, share, march->motor.turns + 3 * place);
         for (int32_t m = 0; m < modes; ++m) {
             const rf_complex turn = to[m], z = march->z[m];
             rf_complex total = {turn.re * z.re - turn.im * z.im, turn.re * z.im + turn.im * z.re};
@@ -139,6 +143,8 @@ static void advance(rf_march *march, const rf_step_table *table, rf_scratch *at)
 {
     const size_t modes = (size_t)march->rotor.modes;
     const size_t wide = (size_t)march->scheme.stages * (size_t)march->rotor.channels;
+    march->motor.angle = at->turned[march->scheme.stages - 1];
+    march->motor.speed = at->speed[march->scheme.stages - 1];
     if (march->spin.matrix) {
         rf_advance_spinning(march, table, at);
         return;
@@ -214,6 +220,8 @@ static int march_on(rf_march *march, double stop, int64_t budget, const double *
             const int32_t next = march->step - longer_by(march, error);
             march->step = next > 0 ? next : 0;
         }
+        if (march->motor.torque && fabs(march->motor.speed - march->spin.speed) > march->motor.band)
+            return march->time >= stop ? RF_MARCH_DONE : RF_MARCH_BAND;
     }
     return march->time >= stop ? RF_MARCH_DONE : RF_MARCH_BUSY;
 }

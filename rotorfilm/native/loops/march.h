@@ -30,6 +30,19 @@ typedef struct rf_excitation {
     const double *times, *values; /* values: rows x count */
 } rf_excitation;
 
+/* What drives a rotor whose speed is a state (motor.h). */
+typedef struct rf_motor {
+    rf_response torque;    /* torque and its slope at a state (time, speed); NULL where the speed is given */
+    const void *of;
+    const double *rubbed;  /* 2 x (2 modes + 1) squared: z' (R0 - w R1) z, z real and imaginary parts and 1, or NULL */
+    double *turns;         /* 3 for each time of the grid: angle, speed and acceleration there */
+    double inertia, rate;  /* rate: typical speed */
+    double band;           /* how far the speed may leave that of the modes */
+    double gravity[2];     /* g of motor.h */
+    double angle, speed;   /* at the time of the march */
+    double first;          /* acceleration at t = 0 */
+} rf_motor;
+
 #define RF_SLOTS 24   /* lengths of steps whose tables are kept */
 #define RF_STEPS 400  /* lengths of steps: the longest over 2^(k/4) */
 
@@ -39,7 +52,8 @@ typedef enum rf_march_end {
     RF_MARCH_SHORT = 2,  /* steps become too short */
     RF_MARCH_BUSY = 3,   /* the budget of steps is spent */
     RF_MARCH_BROKEN = 4, /* a force is not finite, or Newton's method does not end */
-    RF_MARCH_MEMORY = 5
+    RF_MARCH_MEMORY = 5,
+    RF_MARCH_BAND = 6    /* the motor's speed has left that of the modes too far */
 } rf_march_end;
 
 typedef struct rf_march {
@@ -49,7 +63,8 @@ typedef struct rf_march {
     rf_speeds profile;
     rf_spin_rates spin;
     rf_excitation excitation;
-    const double *scales; /* 4 n: make x, y, vx, vy of each journal dimensionless */
+    rf_motor motor;
+    const double *scales; /* rows: make x, y, vx, vy of each journal dimensionless; 0 for accelerations */
     double longest, shortest; /* step [s] */
     double rtol, newton;      /* local error, and what Newton's method leaves of it */
     rf_step_table *tables;    /* RF_SLOTS + 1: the last is for steps that happen once */

@@ -6,23 +6,32 @@
 
 #include "../films/map_frame.h"
 #include "../solvers/dense.h"
+#include "motor.h"
 #include "spin.h"
 
 #define NEWTON_STEPS 8
 #define HUGE_CHANGE 1e300
+
+/* What Newton's method solves for at each node: the films' forces, and the acceleration of a motor. */
+static int32_t unknowns(const rf_march *march)
+{
+    return 2 * march->journals.count + (march->motor.torque ? 1 : 0);
+}
 
 int rf_open_scratch(rf_scratch *at, const rf_march *march)
 {
     const size_t s = (size_t)march->scheme.stages, channels = (size_t)march->rotor.channels;
     const size_t rows = (size_t)march->rotor.rows, modes = (size_t)march->rotor.modes;
     const size_t all = 2 * s * (size_t)march->journals.count, wide = (size_t)rf_slope_width(&march->journals);
+    const size_t each = (size_t)unknowns(march), size = s * each, driven = march->motor.torque ? size * s * rows : 0;
     const size_t drives = march->spin.matrix ? 2 * modes : 0;
     const size_t sizes[] = {s * channels, s * channels, channels, 2 * modes, s * rows, s * rows,  s * rows,
-                            s, s, all, wide * all, s * drives, s * drives, drives, s * drives, all * all,
-                            all,          2 * modes * s, 2 * modes * s};
+                            s, s, all, wide * all, s * drives, s * drives, drives, s * drives, size * size,
+                            size, s, 2 * s, s, all, driven, 2 * modes * s, 2 * modes * s};
     double **const places[] = {&at->u,      &at->guess, &at->start, &at->both,   &at->free, &at->motion,
                                &at->before, &at->speed, &at->turned, &at->force, &at->slope, &at->drive,
-                               &at->drive_before, &at->drive_start, &at->push, &at->matrix, &at->right};
+                               &at->drive_before, &at->drive_start, &at->push, &at->matrix, &at->right,
+                               &at->time, &at->torque, &at->rubbed, &at->by_speed, &at->gain};
     const size_t count = sizeof sizes / sizeof *sizes, named = sizeof places / sizeof *places;
     size_t total = 0;
     for (size_t k = 0; k < count; ++k)
@@ -32,12 +41,13 @@ int rf_open_scratch(rf_scratch *at, const rf_march *march)
         return RF_MEMORY;
     for (size_t k = 0; k < named; next += sizes[k++])
         *places[k] = next;
+    memset(at->rubbed, 0, s * sizeof *at->rubbed);
     at->forced = (rf_complex *)next;
     at->weights = at->forced + modes * s;
     return RF_OK;
 }
 
-/* Set pair to (w^2 cos p + a sin p, w^2 sin p - a cos p), *turned to p, and return the speed w at a time. */
+/* Set the pair of motor.h, *turned to the angle, and return the speed at a time. */
 static double unbalance(const rf_speeds *profile, double t, double pair[2], double *turned)
 {
     int32_t k = 0;
@@ -45,11 +55,8 @@ static double unbalance(const rf_speeds *profile, double t, double pair[2], doub
         ++k;
     const double passed = t - profile->times[k], a = passed >= 0.0 ? profile->slopes[k] : 0.0;
     const double w = profile->speeds[k] + a * passed;
-    const double p = profile->angles[k] + passed * (profile->speeds[k] + 0.5 * a * passed);
-    const double c = cos(p), s = sin(p);
-    *turned = p;
-    pair[0] = w * w * c + a * s;
-    pair[1] = w * w * s - a * c;
+    *turned = profile->angles[k] + passed * (profile->speeds[k] + 0.5 * a * passed);
+    rf_set_pair(*turned, w, a, pair);
     return w;
 }
 
@@ -100,13 +107,15 @@ static int set_node_forces(rf_march *march, rf_scratch *at)
     int worst = RF_OK;
     for (int32_t i = 0; i < march->scheme.stages; ++i) {
         const int status = rf_set_forces(&march->journals, at->motion + i * rows, at->speed[i], at->turned[i],
-                                         at->force + i * forces, at->slope + slopes * i);
+                                         at->force + i * forces, at->slope + slopes * i,
+                                         march->motor.torque ? at->by_speed + i * forces : NULL);
         march->films += 1;
         if (status >= RF_AT_WALL)
             return status;
         worst = status > worst ? status : worst;
     }
-    return worst;
+    const int status = march->motor.torque ? rf_set_torques(march, march->scheme.stages, at) : RF_OK;
+    return status > worst ? status : worst;
 }
 
 /* Number k of what the force of a journal changes with, among all rows: its motion, then its acceleration. */
@@ -116,37 +125,44 @@ static int32_t row_of(const rf_march *march, int32_t journal, int32_t k)
     return k < own ? own * journal + k : 4 * march->journals.count + 2 * journal + k - own;
 }
 
-/* The linear equations of Newton's method for the forces at the nodes. */
-static void set_equations(const rf_march *march, const rf_step_table *table, rf_scratch *at)
+/* Solve the linear equations of Newton's method for the unknowns at so many nodes; a status. */
+static int solve_equations(const rf_march *march, int32_t s, const double *by_channel, rf_scratch *at)
 {
-    const int32_t s = march->scheme.stages, channels = march->rotor.channels, rows = march->rotor.rows;
-    const int32_t forces = 2 * march->journals.count, size = s * forces, own = 2 * march->journals.points;
-    const int32_t width = rf_slope_width(&march->journals);
+    const int32_t channels = march->rotor.channels, rows = march->rotor.rows, width = rf_slope_width(&march->journals);
+    const int32_t forces = 2 * march->journals.count, own = 2 * march->journals.points;
+    const int32_t each = unknowns(march), size = s * each, stride = each > forces ? each : channels;
+    const double *gains = each > forces ? rf_set_driven_gain(march, s, by_channel, at) : by_channel;
     memset(at->matrix, 0, (size_t)size * (size_t)size * sizeof *at->matrix);
-    for (int32_t row = 0; row < size; ++row) {
-        const int32_t i = row / forces, r = row % forces;
+    for (int32_t of = 0; of < s * forces; ++of) {
+        const int32_t i = of / forces, r = of % forces, row = i * each + r;
         double *to = at->matrix + row * size;
         for (int32_t j = 0; j < s; ++j)
             for (int32_t k = 0; k < width; ++k) {
-                const double slope = at->slope[width * row + k];
-                const double *gain = table->gain + ((i * s + j) * rows + row_of(march, r / own, k)) * channels;
-                for (int32_t c = 0; c < forces; ++c)
-                    to[j * forces + c] -= slope * gain[c];
+                const double slope = at->slope[width * of + k];
+                const double *gain = gains + ((i * s + j) * rows + row_of(march, r / own, k)) * stride;
+                for (int32_t c = 0; c < each; ++c)
+                    to[j * each + c] -= slope * gain[c];
             }
         to[row] += 1.0;
-        at->right[row] = at->force[row] - at->guess[i * channels + r];
+        at->right[row] = at->force[of] - at->guess[i * channels + r];
     }
+    if (each > forces)
+        rf_add_motor_equations(march, s, gains, at);
+    rf_eliminate((size_t)size, at->matrix, 1, at->right);
+    return rf_is_broken(at->right, size) ? RF_NOT_FINITE : RF_OK;
 }
 
 /* Take the forces in at->right; the largest change of motion, scaled. */
 static double take_forces(const rf_march *march, const rf_step_table *table, rf_scratch *at)
 {
     const int32_t s = march->scheme.stages, channels = march->rotor.channels, rows = march->rotor.rows;
-    const int32_t forces = 2 * march->journals.count;
+    const int32_t forces = 2 * march->journals.count, each = unknowns(march);
     double *const before = at->motion, change = 0.0;
     for (int32_t j = 0; j < s; ++j)
-        for (int32_t c = 0; c < forces; ++c)
-            at->guess[j * channels + c] += at->right[j * forces + c];
+        for (int32_t c = 0; c < each; ++c)
+            at->guess[c < forces ? j * channels + c : (j + 1) * channels - 1] += at->right[j * each + c];
+    if (march->motor.torque)
+        change = rf_set_turns(march, at);
     at->motion = at->before;
     at->before = before;
     set_motion(march, table, at, at->motion);
@@ -158,19 +174,18 @@ static double take_forces(const rf_march *march, const rf_step_table *table, rf_
 /* Solve for the films' forces at the nodes, in at->guess. */
 static int newton(rf_march *march, const rf_step_table *table, rf_scratch *at)
 {
-    const size_t size = (size_t)(march->scheme.stages * 2 * march->journals.count);
     double before = HUGE_VAL;
     int worst = RF_OK;
+    if (march->motor.torque)
+        rf_set_turns(march, at);
     set_motion(march, table, at, at->motion);
     for (int step = 0; step < NEWTON_STEPS; ++step) {
         const int status = set_node_forces(march, at);
         if (status >= RF_AT_WALL)
             return status;
         worst = status > worst ? status : worst;
-        set_equations(march, table, at);
         march->jacobians += 1;
-        rf_eliminate(size, at->matrix, 1, at->right);
-        if (rf_is_broken(at->right, (int)size))
+        if (solve_equations(march, march->scheme.stages, table->gain, at) != RF_OK)
             return RF_NOT_FINITE;
         const double change = take_forces(march, table, at);
         if (!(change < HUGE_CHANGE) || (step > 1 && change > before))
@@ -195,6 +210,8 @@ static double local_error(const rf_march *march, const rf_step_table *table, rf_
         for (int32_t j = 0; j < s; ++j)
             gap[c] -= march->scheme.lagrange[j * s] * at->guess[j * channels + c];
     }
+    if (march->motor.torque)
+        worst = rf_turn_error(march, at->h, gap[channels - 1]);
     for (int32_t i = 0; i < s; ++i)
         for (int32_t q = 0; q < rows; ++q) {
             const double *defect = table->defect + (i * rows + q) * channels;
@@ -210,9 +227,12 @@ int rf_try_step(rf_march *march, const rf_step_table *table, double h, double la
 {
     const int32_t s = march->scheme.stages, channels = march->rotor.channels, rows = march->rotor.rows;
     const int32_t modes = march->rotor.modes;
-    for (int32_t i = 0; i < s; ++i)
-        at->speed[i] = set_given(march, fmin(march->time + h * march->scheme.nodes[i], last),
-                                 at->guess + i * channels + 2 * march->journals.count, at->turned + i);
+    at->h = h;
+    for (int32_t i = 0; i < s; ++i) {
+        at->time[i] = fmin(march->time + h * march->scheme.nodes[i], last);
+        at->speed[i] = set_given(march, at->time[i], at->guess + i * channels + 2 * march->journals.count,
+                                 at->turned + i);
+    }
     for (int32_t m = 0; m < modes; ++m) {
         at->both[m] = march->z[m].re;
         at->both[modes + m] = march->z[m].im;
@@ -226,36 +246,51 @@ int rf_try_step(rf_march *march, const rf_step_table *table, double h, double la
 
 void rf_add_direct(const rf_march *march, const double *forces, const double *drive, double *motion)
 {
-    const int32_t modes = march->rotor.modes, channels = march->rotor.channels, n = march->journals.count;
+    const int32_t modes = march->rotor.modes, rows = march->rotor.rows, first = 4 * march->journals.count;
     if (!march->rotor.direct)
         return;
-    rf_add_product((size_t)march->rotor.rows, (size_t)channels, 1.0, march->rotor.direct, forces, motion);
-    for (int32_t k = 0; drive && k < 2 * n; ++k) {
-        const rf_complex *rate = march->rotor.sense + (4 * (k / 2) + 2 + k % 2) * modes;
+    rf_add_product((size_t)rows, (size_t)march->rotor.channels, 1.0, march->rotor.direct, forces, motion);
+    for (int32_t k = 0; drive && k < rows - first; ++k) {
+        const rf_complex *rate = march->rotor.rates + k * modes;
         for (int32_t m = 0; m < modes; ++m)
-            motion[4 * n + k] += rate[m].re * drive[m] - rate[m].im * drive[modes + m];
+            motion[first + k] += rate[m].re * drive[m] - rate[m].im * drive[modes + m];
     }
 }
 
-/* The forces at the start from those at the accelerations without any of them, where films add masses. */
-static int share_acceleration(const rf_march *march, rf_scratch *at)
+/* Speed, angle and all that acts at the time of the march without films, in the first row of at->guess. */
+static void set_given_start(rf_march *march, rf_scratch *at)
 {
-    const int32_t forces = 2 * march->journals.count, width = rf_slope_width(&march->journals);
-    for (int32_t r = 0; r < forces; ++r)
-        for (int32_t c = 0; c < forces; ++c) {
-            double *to = at->matrix + r * forces + c;
-            *to = r == c;
-            for (int32_t k = 4; k < width; ++k)
-                *to -= at->slope[width * r + k] * march->rotor.direct[row_of(march, r / 2, k) * march->rotor.channels + c];
-        }
-    rf_eliminate((size_t)forces, at->matrix, 1, at->start);
-    return rf_is_broken(at->start, (size_t)forces) ? RF_NOT_FINITE : RF_OK;
+    const int32_t forces = 2 * march->journals.count, channels = march->rotor.channels;
+    at->h = 0.0;
+    at->time[0] = march->time;
+    memset(at->guess, 0, (size_t)channels * sizeof *at->guess);
+    at->speed[0] = set_given(march, march->time, at->guess + forces, at->turned);
+    if (!march->motor.torque)
+        return;
+    at->speed[0] = march->motor.speed;
+    at->turned[0] = march->motor.angle;
+    rf_set_pair(at->turned[0], at->speed[0], 0.0, at->guess + forces);
 }
 
-int rf_set_start(const rf_march *march, rf_scratch *at)
+/* The forces at the start, and the acceleration of a motor, from those at the accelerations without any of them. */
+static int share_acceleration(rf_march *march, rf_scratch *at)
+{
+    const int32_t forces = 2 * march->journals.count, last = march->rotor.channels - 1;
+    int status = march->motor.torque ? rf_set_torques(march, 1, at) : RF_OK;
+    if (status == RF_OK)
+        status = solve_equations(march, 1, march->rotor.direct, at);
+    memcpy(at->start, at->right, (size_t)forces * sizeof *at->start);
+    if (!march->motor.torque)
+        return status;
+    at->start[last] = at->right[forces];
+    march->motor.first = march->time > 0.0 ? march->motor.first : at->start[last];
+    rf_set_pair(at->turned[0], at->speed[0], at->start[last], at->start + forces);
+    return status;
+}
+
+int rf_set_start(rf_march *march, rf_scratch *at)
 {
     const int32_t rows = march->rotor.rows, modes = march->rotor.modes, forces = 2 * march->journals.count;
-    double turned;
     for (int32_t q = 0; q < rows; ++q) {
         const rf_complex *sense = march->rotor.sense + q * modes;
         double total = 0.0;
@@ -263,12 +298,14 @@ int rf_set_start(const rf_march *march, rf_scratch *at)
             total += sense[m].re * march->z[m].re - sense[m].im * march->z[m].im;
         at->motion[q] = total;
     }
-    const double w = set_given(march, march->time, at->start + forces, &turned);
+    set_given_start(march, at);
     if (march->spin.matrix)
-        rf_set_drive_start(march, w, at);
-    memset(at->start, 0, (size_t)forces * sizeof *at->start);
-    rf_add_direct(march, at->start, march->spin.matrix ? at->drive_start : NULL, at->motion);
-    const int status = rf_set_forces(&march->journals, at->motion, w, turned, at->start, at->slope);
+        rf_set_drive_start(march, at->speed[0], at);
+    rf_add_direct(march, at->guess, march->spin.matrix ? at->drive_start : NULL, at->motion);
+    memcpy(at->start, at->guess, (size_t)march->rotor.channels * sizeof *at->start);
+    const int status = rf_set_forces(&march->journals, at->motion, at->speed[0], at->turned[0], at->start, at->slope,
+                                     march->motor.torque ? at->by_speed : NULL);
+    memcpy(at->force, at->start, (size_t)forces * sizeof *at->force);
     if (!march->rotor.direct || status >= RF_AT_WALL)
         return status;
     const int solved = share_acceleration(march, at);

@@ -10,11 +10,13 @@ typedef struct rf_scratch {
     double *start;          /* channels: at its start */
     double *both;           /* 2 modes */
     double *free, *motion, *before; /* s x rows: without forces, with them, and with those of the last iterate */
+    double h, *time;        /* length of the step, and s times */
     double *speed, *turned; /* s: angular speed, and angle */
+    double *torque, *rubbed, *by_speed, *gain; /* s x 2, s, s x 2 n, s x s x rows x (2 n + 1): of motor.h */
     double *force, *slope;  /* s x 2 n, s x 2 n x rf_slope_width */
     double *drive, *drive_before; /* s x 2 modes: what spin.h adds, in this step and in the last one */
     double *drive_start, *push;   /* 2 modes: at the start; s x 2 modes: all that acts on the modes */
-    double *matrix, *right; /* (s 2 n) squared, and as many as one row or all channels */
+    double *matrix, *right; /* unknowns squared, and as many as one row or all channels */
     rf_complex *forced;     /* modes x s: what the forces of a step do to each mode, by powers of time */
     rf_complex *weights;    /* modes x s */
     double *memory;
@@ -23,7 +25,7 @@ typedef struct rf_scratch {
 int rf_open_scratch(rf_scratch *at, const rf_march *march);
 
 /* Films' forces and unbalance at the time of the march, in at->start. */
-int rf_set_start(const rf_march *march, rf_scratch *at);
+int rf_set_start(rf_march *march, rf_scratch *at);
 
 /* Add to the motion of the journals the accelerations per force and drive at the same moment. */
 void rf_add_direct(const rf_march *march, const double *forces, const double *drive, double *motion);
