@@ -11,11 +11,12 @@
 #include "grids/ring.h"
 #include "heat/energy.h"
 #include "loops/march.h"
+#include "loops/motor.h"
 #include "loops/ride.h"
 #include "loops/shake.h"
 #include "loops/springs.h"
 
-enum { STAGES = 2, JOURNALS = 2, MODES = 4, ROWS = 4 * JOURNALS, CHANNELS = 2 * JOURNALS + 2, SAMPLES = 9 };
+enum { STAGES = 2, JOURNALS = 2, MODES = 4, ROWS = 4 * JOURNALS + 2, CHANNELS = 2 * JOURNALS + 3, SAMPLES = 9 };
 
 static uint64_t seed = 88172645463325252u;
 
@@ -154,9 +155,11 @@ static void try_ring(const rf_ring *ring)
     free(field);
 }
 
-/* Two masses m on a spring and a damper in either direction: z' = lambda z - i f/(m Im lambda), x = Re z. */
+/* Two masses m on a spring and a damper in either direction: z' = lambda z - i f/(m Im lambda), x = Re z. The last
+   two rows are the acceleration of the unbalance on the first one, which a motor may turn. */
 typedef struct masses {
-    rf_complex values[MODES], push[MODES * CHANNELS], sense[ROWS * MODES];
+    rf_complex values[MODES], push[MODES * CHANNELS], sense[ROWS * MODES], rates[2 * MODES];
+    double direct[ROWS * CHANNELS];
 } masses;
 
 static void set_masses(masses *of, double mass, double decay, double turn)
@@ -166,8 +169,16 @@ static void set_masses(masses *of, double mass, double decay, double turn)
         const rf_complex value = {-decay, turn}, one = {1.0, 0.0}, push = {0.0, -1.0 / (mass * turn)};
         of->values[m] = value;
         of->push[m * CHANNELS + m] = push;
-        if (m < 2)
+        if (m < 2) {
+            const rf_complex squared = {1e-3 * (decay * decay - turn * turn), -2e-3 * decay * turn};
+            double *direct = of->direct + (4 * JOURNALS + m) * CHANNELS;
             of->push[m * CHANNELS + 2 * JOURNALS + m].im = 1e-3 * push.im;
+            of->rates[m * MODES + m].re = 1e-3 * value.re;
+            of->rates[m * MODES + m].im = 1e-3 * value.im;
+            of->sense[(4 * JOURNALS + m) * MODES + m] = squared;
+            direct[m] = 1e-3 / mass;
+            direct[2 * JOURNALS + m] = 1e-6 / mass;
+        }
         of->sense[(4 * (m / 2) + m % 2) * MODES + m] = one;
         of->sense[(4 * (m / 2) + 2 + m % 2) * MODES + m] = value;
     }
@@ -209,7 +220,7 @@ static void try_march(const rf_response *films, const void *const *of, int is_fr
     const double slopes[] = {(speeds[1] - speeds[0]) / times[1], 0.0};
     const double angles[] = {0.0, 0.5 * times[1] * (speeds[0] + speeds[1])};
     rf_complex z[MODES], begun[MODES], out[SAMPLES * MODES];
-    double grid[SAMPLES], turned[4 * MODES * MODES], turned_rest[2 * MODES];
+    double grid[SAMPLES], turns[3 * SAMPLES], turned[4 * MODES * MODES], turned_rest[2 * MODES];
     for (int k = 0; k < 4 * MODES * MODES; ++k)
         turned[k] = about(0.5, odd);
     for (int k = 0; k < 2 * MODES; ++k)
@@ -221,7 +232,7 @@ static void try_march(const rf_response *films, const void *const *of, int is_fr
     if (is_free)
         memset(rotor.push, 0, sizeof rotor.push);
     for (int q = 0; q < ROWS; ++q)
-        scales[q] = q % 4 < 2 ? 1e4 : 1e2;
+        scales[q] = q >= 4 * JOURNALS ? 0.0 : q % 4 < 2 ? 1e4 : 1e2;
     for (int m = 0; m < MODES; ++m) {
         z[m].re = begun[m].re = about(5e-5, odd);
         z[m].im = begun[m].im = about(5e-5, odd);
@@ -229,7 +240,7 @@ static void try_march(const rf_response *films, const void *const *of, int is_fr
     for (int n = 0; n < SAMPLES; ++n)
         grid[n] = duration * (n + 1) / SAMPLES;
     rf_march march = {
-        {MODES, CHANNELS, ROWS, rotor.values, rotor.push, rotor.sense, NULL},
+        {MODES, CHANNELS, ROWS, rotor.values, rotor.push, rotor.sense, rotor.direct, rotor.rates},
         {STAGES, NODES, LAGRANGE, REMAINDER},
         {JOURNALS, 1, films, of, rest, spring, damper, lengths, walls, arms, NULL, NULL},
         {2, times, speeds, slopes, angles},
@@ -237,16 +248,23 @@ static void try_march(const rf_response *films, const void *const *of, int is_fr
         .scales = scales, .longest = duration / 3.0, .shortest = 1e-13 * duration,
         .rtol = pow(10.0, -6.0 * uniform()), .newton = 1e-9, .tables = tables, .step = (int32_t)(20.0 * uniform()), .z = z,
     };
+    const double line[] = {about(2.0, odd), about(0.01, odd), 2.0, 0.0, duration, 300.0, 200.0};
+    const rf_motor motor = {rf_line_torque_at, line, NULL, turns, 1e-4 + uniform(), 300.0, about(100.0, odd),
+                            {0.0, -9.81e-3}, 0.0, speeds[0], 0.0};
+    if (!is_free && uniform() < 0.5)
+        march.motor = motor;
     memset(march.slot_of, -1, sizeof march.slot_of);
     memset(march.step_of, -1, sizeof march.step_of);
     int64_t place = 0;
     int end = rf_march_to(&march, times[1], 400, grid, SAMPLES, &place, out);
     if (end == RF_MARCH_DONE)
         end = rf_march_to(&march, duration, 400, grid, SAMPLES, &place, out);
-    if (end < RF_MARCH_DONE || end > RF_MARCH_MEMORY || place > SAMPLES)
+    if (end < RF_MARCH_DONE || end > RF_MARCH_BAND || place > SAMPLES)
         fail("end of a march", end);
     if (end == RF_MARCH_DONE)
         require_finite((const double *)out, 2 * MODES * (size_t)place, "samples of a march");
+    if (end == RF_MARCH_DONE && march.motor.torque)
+        require_finite(turns, 3 * (size_t)place, "angles of a march");
     for (int n = 0; is_free && end == RF_MARCH_DONE && n < SAMPLES; ++n) {
         const double size = exp(-decay * grid[n]), c = size * cos(turn * grid[n]), s = size * sin(turn * grid[n]);
         if (!(fabs(out[n * MODES].re - (c * begun[0].re - s * begun[0].im)) < 1e-14))
