@@ -21,6 +21,7 @@ from scipy.special import roots_jacobi
 from ..core.errors import (
     ContactError,
     ConvergenceError,
+    FilmContactError,
     InputError,
     require_finite,
     require_non_negative,
@@ -204,7 +205,7 @@ def _run(
         turn = run.turn(grid[: len(states)])
         try:
             return _trajectory(mounted, grid, states, parts, turn, run.work), states, turn, failure
-        except InputError:  # a film has no force in the last state
+        except (InputError, FilmContactError):  # a film has no force in the last state
             states, turn = states[:-1], turn[:, :-1]
             return _trajectory(mounted, grid, states, parts, turn, run.work), states, turn, failure
     run.warn()

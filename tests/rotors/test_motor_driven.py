@@ -13,6 +13,7 @@ from scipy.optimize import brentq
 from rotorfilm import (
     AnnularSeal,
     ClassicalBeam,
+    ContactError,
     ConvergenceError,
     Disk,
     ElasticMaterial,
@@ -359,6 +360,15 @@ def test_a_shaft_that_its_weight_turns_over_is_left_to_scipy():
     )
     assert prescribed["center_y"][-1] == pytest.approx(-0.5 * 9.8 * 2e-3**2, rel=0.1)
     assert on_motor["center_y"] == pytest.approx(prescribed["center_y"], rel=1e-6)
+
+
+def test_a_run_that_begins_at_the_wall_is_a_contact():
+    film = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+    touching = rigid(position=(1e-4, 0.0))
+    for rotor in (touching, MotorDrivenRotor(rotor=touching, inertia=0.02, torque=MOTOR)):
+        with pytest.raises(ContactError, match="reached the wall at t = 0") as contact:
+            simulate(rotor, {"": film}, duration=0.1)
+        assert contact.value.partial.time.size == 0
 
 
 def test_what_does_not_fit_is_named():
