@@ -29,7 +29,7 @@ COARSE_MAP = journal.GroovedMapFilm(cells=(96, 8), nodes=(8, 48, 32))
 ONE_NUMBER = "one Reynolds number"
 """Name of the cheapest film of a plain turbulent bearing."""
 
-LOCAL, MEDIUM, FINE, FINEST = (48, 8), (192, 16), (384, 16), (768, 32)
+MEDIUM, FINE, FINEST = (192, 16), (384, 16), (768, 32)
 
 
 def film_rungs(bearing: journal.JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
@@ -124,8 +124,8 @@ def _one_number(bearing: journal.JournalBearing) -> list[FilmRung]:
         return []
     whole = replace(bearing, turbulence=replace(effect, local=False))
     film = journal.fitted_bearing(whole, journal.MapFilm())
-    rich = extrapolated(bearing, LOCAL)
-    return [FilmRung(ONE_NUMBER, film, rich, grid_name(LOCAL), 0.1, 0.1)]
+    rich = extrapolated(bearing, MEDIUM)
+    return [FilmRung(ONE_NUMBER, film, rich, grid_name(MEDIUM), 0.1, 0.1)]
 
 
 def _grooved_maps(bearing: journal.JournalBearing) -> list[FilmRung]:
