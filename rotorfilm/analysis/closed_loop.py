@@ -712,9 +712,11 @@ def rotor_states(
 def response_rows(rotor: FlexibleRotor, at: RotorEquilibrium) -> tuple[Array, list[str]]:
     """Return rows over (q, q', q'') and names of all outputs of a rotor on its films."""
     s = rotor.assembly
-    own = output_rows(s)
-    rows: Sequence[Array] = [np.hstack([own, np.zeros((len(own), len(s.weight)))])]
-    labels = names(rotor.outputs)[:-1]
+    if "outputs" not in rotor.cache:
+        own = output_rows(s)
+        rotor.cache["outputs"] = np.hstack([own, np.zeros((len(own), len(s.weight)))]), names(rotor.outputs)
+    first, labels = rotor.cache["outputs"]
+    rows, labels = [first], labels[:-1]
     for name, film in at.coefficients.items():
         freedoms = freedoms_of(film)
         felt = freedom_rows(s, name, freedoms)

@@ -314,6 +314,8 @@ class RestEquations:
         still = 2 * len(structure.coordinates) + np.flatnonzero(untouched(structure, self.journals))
         self.stiffness[still] = self.stiffness[:, still] = 0.0
         self.stiffness[still, still] = self.size / 1e-4
+        self.terms = np.abs(self.stiffness), np.abs(self.journals)
+        self.pressed: tuple[Array, Array] | None = None
 
     def split(self, values: Array) -> list[Array]:
         """Return what a vector over the rows of all bearings has of each."""
@@ -389,6 +391,7 @@ class RestEquations:
     def warm(self, temperatures: list[float | None]) -> None:
         """Take the films at these temperatures; None for those that have theirs."""
         pairs = zip(self.given, temperatures, strict=True)
+        self.pressed = None
         self.bearings = [b if T is None else cast(Any, b).at_temperature(T) for b, T in pairs]
 
     def balanced(self, p: Array) -> list[float | None]:
@@ -410,11 +413,12 @@ class RestEquations:
             return q, p
 
     def forces(self, p: Array) -> Array:
-        """Return the forces of the bearings, one after the other."""
-        pairs = zip(self.bearings, self.split(p), strict=True)
-        return np.concatenate(
-            [np.zeros(0), *(modal_reduction.force_at(b, at, self.speed) for b, at in pairs)]
-        )
+        """Return the forces of the bearings, one after the other; those of the last p are remembered."""
+        if self.pressed is None or self.pressed[0] is not p:
+            pairs = zip(self.bearings, self.split(p), strict=True)
+            found = (modal_reduction.force_at(b, at, self.speed) for b, at in pairs)
+            self.pressed = p, np.concatenate([np.zeros(0), *found])
+        return self.pressed[1]
 
     def slopes(self, p: Array) -> Array:
         """Return d(forces)/dp, block by block."""
@@ -434,9 +438,9 @@ class RestEquations:
     def tolerances(self, q: Array, p: Array, s: float, pressed: Array) -> tuple[Array, Array]:
         """Return the residuals at which the rotor rests: TOLERANCE, and roundoff of what cancels in them."""
         lengths = np.repeat([min(port.clearance_of(b), 1e-4) for b in self.bearings], self.sizes)
-        forces = np.abs(self.weight) + np.abs(self.stiffness) @ np.abs(q)
-        forces = forces + np.abs(self.journals.T) @ np.abs(pressed)
-        misfit = np.abs(self.journals) @ np.abs(q) + s * np.abs(p)
+        stiffness, journals = self.terms
+        forces = np.abs(self.weight) + stiffness @ np.abs(q) + journals.T @ np.abs(pressed)
+        misfit = journals @ np.abs(q) + s * np.abs(p)
         roundoff = max(len(q), 10) * np.finfo(float).eps
         allowed = TOLERANCE * self.size + roundoff * forces
         if self.weight.any():

@@ -652,14 +652,16 @@ class ConservedFilm:
     def steady(self, place: Array, rate: float) -> ConservedState:
         """Return the steady film around a journal at a place, as in `gap`.
 
-        The last ones are kept: a search asks for force, slopes and K(s) of one place in turn.
+        The last ones are kept: a search asks for force, slopes and K(s) of one place in turn. One nearby
+        tells where the film may be full.
         """
         known, key = _recent(self), (rate, *place.tolist())
         found = known.get(key)
         if found is None:
             if len(known) >= RECENT:
-                known.clear()
-            found = known[key] = self.solve(self.gap(place), rate)
+                del known[next(iter(known))]
+            guess = _full_nearby(known, key)
+            found = known[key] = self.solve(self.gap(place), rate, guess=guess)
         return found
 
     def equations(
@@ -794,6 +796,23 @@ def shape_of(film: ConservedFilm) -> Any:
 
 RECENT = 16
 """Steady states of a film that are kept, at most."""
+
+
+NEARBY = 0.1
+"""Change of place in clearances, and relative one of the rate, up to which sets of full cells are alike."""
+
+
+def _full_nearby(known: dict[tuple[float, ...], ConservedState], key: tuple[float, ...]) -> Any:
+    """Return which cells are full in the nearest of the states that are kept; None where none is nearby."""
+
+    def apart(one: tuple[float, ...]) -> float:
+        places = zip(one[1:], key[1:], strict=True)
+        return abs(one[0] - key[0]) / abs(key[0] or 1.0) + sum(abs(a - b) for a, b in places)
+
+    nearest = min(known, key=apart, default=None)
+    if nearest is None or apart(nearest) > NEARBY:
+        return None
+    return known[nearest].solution.full
 
 
 @once_for_each

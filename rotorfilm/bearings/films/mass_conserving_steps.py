@@ -277,45 +277,48 @@ def cavity_of(
     force : callable
         Forces from changes of pressure (columns, N, M).
     """
-    e, (lines, along) = state.equations, state.solution.full.shape
+    e, shape = state.equations, state.solution.full.shape
+    (lines, along), size = shape, state.solution.full.size
     film = e.opening == FILM
     empty, full = film & (state.solution.full == 0), film & (state.solution.full != 0)
-    if not np.all(np.any(~empty, axis=0)):
+    if np.any(np.all(empty, axis=0)):
         return None
-    number = np.arange(lines * along).reshape(lines, along)
-    step = -1 if e.backward else 1
-    upstream, carried = np.roll(number, step, axis=0), np.abs(e.wedge)
-    out, into = (
-        (np.roll(carried, 1, axis=0), carried) if e.backward else (carried, np.roll(carried, 1, axis=0))
-    )
+    step, carried = -1 if e.backward else 1, np.abs(e.wedge).ravel()
+
+    def at(cells: np.ndarray, further: int) -> np.ndarray:
+        return (cells + further * along) % size
+
     # A line of cells is followed from a cell that is not of the cavity.
-    begin = np.argmax(~empty, axis=0)
-    position = (step * (np.arange(lines)[:, None] - begin)) % lines
-    cells = number[empty][np.argsort(position[empty], kind="stable")]
-    rank = np.full(lines * along, -1)
+    line, column = np.nonzero(empty)
+    order = np.argsort(step * (line - np.argmin(empty, axis=0)[column]) % lines, kind="stable")
+    line, column = line[order], column[order]
+    cells, filled = line * along + column, np.flatnonzero(full)
+    rank = np.full(size, -1, dtype=np.int32)
     rank[cells] = np.arange(len(cells))
-    inlets = number[full & empty.ravel()[upstream]]
+    inlets = filled[rank[at(filled, -step)] >= 0]
+    out, into = (-1, 0) if e.backward else (0, -1)
     columns = len(inlets) + 2 * len(slopes[0])
-    right = np.zeros((columns, lines * along))
-    right[np.arange(len(inlets)), inlets] = into.ravel()[inlets]
-    right[len(inlets) :] = -np.concatenate(slopes).reshape(-1, lines * along)
-    in_film = np.where(full.ravel(), right, 0.0).reshape(columns, lines, along)
-    change: Array = oil_response(e, state.solution.full, np.where(empty, KEEPS, 0.0), in_film).real
-    change = np.where(full, change, 0.0)
-    aside = np.zeros((columns, lines, 1))
-    beside = np.concatenate([aside, change, aside], axis=2)
-    arriving = np.roll(e.around, 1, axis=0) * np.roll(change, 1, axis=1) + e.around * np.roll(
-        change, -1, axis=1
+    right = np.zeros((columns, size))
+    right[np.arange(len(inlets)), inlets] = carried[at(inlets, into)]
+    right[len(inlets) :] = -np.concatenate(slopes).reshape(-1, size)
+    in_film = np.where(full.ravel(), right, 0.0).reshape(columns, *shape)
+    change = oil_response(e, state.solution.full, np.where(empty, KEEPS, 0.0), in_film).real
+    felt, change = force(np.where(full, change, 0.0)), np.where(full, change, 0.0).reshape(columns, size)
+    around, first, last = e.around.ravel(), column > 0, column < along - 1
+    beside = (
+        (at(cells, -1), around[at(cells, -1)]),
+        (at(cells, 1), around[cells]),
+        (cells - first, first * e.along[line, column]),
+        (cells + last, last * e.along[line, column + 1]),
     )
-    arriving += e.along[:, :-1] * beside[:, :, :-2] + e.along[:, 1:] * beside[:, :, 2:]
-    source = arriving.reshape(columns, -1)[:, cells].T + np.where(empty.ravel(), right, 0.0)[:, cells].T
-    felt = force(change)
-    turn, carrying, room = (np.broadcast_to(one, (lines, along)).ravel()[cells] for one in waves)
+    source = right[:, cells] + sum(conductance * change[:, cell] for cell, conductance in beside)
+    turn, carrying, room = (np.broadcast_to(one, shape)[line, column] for one in waves)
     return in_c(
         "rf_oil_cavity",
         *(len(cells), len(inlets), len(slopes[0]), len(felt)),
-        *(rank[upstream.ravel()[one]].astype(np.int32) for one in (cells, inlets)),
-        *((out + e.store).ravel()[cells], into.ravel()[cells], room, turn, carrying, source, felt),
+        *(rank[at(one, -step)] for one in (cells, inlets)),
+        *(carried[at(cells, out)] + e.store[line, column], carried[at(cells, into)], room, turn, carrying),
+        *(source.T, felt),
     )
 
 

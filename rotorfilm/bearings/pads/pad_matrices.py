@@ -93,11 +93,10 @@ class PadMatrices(Readable):
         Pads with mass have their velocities as further states; without mass the velocities follow from the
         balance of moments.
         """
-        kept = [0, 1, *self._loaded]
-        K, C, M = (whole[np.ix_(kept, kept)] for whole in (self.stiffness, self.damping, self.mass))
+        kept = np.array([0, 1, *self._loaded])
+        K, C, M = (whole[kept][:, kept] for whole in (self.stiffness, self.damping, self.mass))
         masses, n = np.diag(M), len(kept) - 2
-        heavy = np.flatnonzero(masses > 0.0)
-        light = np.array([k for k in range(2, n + 2) if masses[k] == 0.0], dtype=int)
+        heavy, light = np.flatnonzero(masses > 0.0), 2 + np.flatnonzero(masses[2:] == 0.0)
         states = n + len(heavy)
         # Columns: places of the pads, velocities of the heavy ones, place and velocity of the journal.
         place, velocity = np.zeros((2, n + 2, states + 4))
@@ -105,7 +104,7 @@ class PadMatrices(Readable):
         velocity[:2, states + 2 :] = np.eye(2)
         velocity[heavy, n:states] = np.eye(len(heavy))
         pull = K[light] @ place + C[light] @ velocity
-        velocity[light] = -np.linalg.solve(C[np.ix_(light, light)], pull)
+        velocity[light] = -np.linalg.solve(C[light][:, light], pull)
         force = -K @ place - C @ velocity
         rates = np.vstack([velocity[2:], force[heavy] / masses[heavy, None]])
         return Linearization(rates[:, :states], rates[:, states:], force[:2, :states], force[:2, states:])
@@ -113,8 +112,8 @@ class PadMatrices(Readable):
     @property
     def _loaded(self) -> list[int]:
         """Coordinates of the pads that have a film."""
-        pads = len(self.unloaded)
-        return [k for k in range(2, len(self.stiffness)) if not self.unloaded[(k - 2) % pads]]
+        free = np.resize(~self.unloaded, len(self.stiffness) - 2)
+        return [2 + k for k in np.flatnonzero(free).tolist()]
 
     def dynamic_stiffness(self, s: complex) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
         """Return Z(s) of the journal, shape (2, 2), and dZ/ds; s is an exponent [1/s]."""
