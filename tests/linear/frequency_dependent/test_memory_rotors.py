@@ -103,6 +103,9 @@ def test_what_grows_is_counted_besides(films, monkeypatch):
         at = rotor_equilibrium(rotor, films, speed)
         assert rotor_growing(rotor.structure, at, modes.eigenvalues) == growing
         assert 2 * np.sum(modes.eigenvalues.real > 0.0) == growing
+        with monkeypatch.context() as patch:  # without any help of modes
+            patch.setattr(remembered, "TOLD", -1.0)
+            assert rotor_growing(rotor.structure, at, modes.eigenvalues) == growing
     monkeypatch.setattr(remembered, "growing_count", lambda *given: 4)
     with pytest.raises(ConvergenceError, match="only 0 of 4 growing motions were found"):
         rotor_threshold(rotor, films, [150.0, 350.0])

@@ -101,3 +101,22 @@ def test_a_place_left_and_found_again_has_the_same_force():
         kept, fresh = (one.force(place, np.zeros(2), 0.9 * speed) for one in (film, next(films())[0]))
         np.testing.assert_array_equal(kept, fresh)
     np.testing.assert_array_equal(film.force(np.array([3e-5, -5e-5]), np.zeros(2), speed), force)
+
+
+def test_a_film_near_a_known_one_begins_with_its_full_cells_and_is_the_same(monkeypatch):
+    """From nowhere the search begins on half the cells, and takes more solutions on all of them."""
+    bearing = JournalBearing(
+        radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02, grooves=(Groove(center=1.6, width=0.3),)
+    )
+    found, kept = [], mass_conserving.solve_oil
+    monkeypatch.setattr(
+        mass_conserving, "solve_oil", lambda *a, **k: found.append(kept(*a, **k)) or found[-1]
+    )
+    place, other = np.array([1e-5, -6e-5]), np.array([5e-5, 1e-5])
+    film, still = JFOFilm(bearing=bearing, cells=(72, 8)), np.zeros(2)
+    film.force(other, still, 200.0)
+    film.force(place, still, 200.0)
+    force = film.force(1.001 * place, still, 202.0)
+    begun = found[-1].solutions
+    assert np.array_equal(force, JFOFilm(bearing=bearing, cells=(72, 8)).force(1.001 * place, still, 202.0))
+    assert begun < found[-1].solutions
