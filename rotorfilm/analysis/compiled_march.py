@@ -607,7 +607,7 @@ class March:
         end = End.BUSY
         while end == End.BUSY:
             end = End(loops()["rf_march_to"](byref(self._struct), stop, BUDGET, *arguments))
-        raise_foreign((*self.modal.calls, *self._torque))
+            raise_foreign((*self.modal.calls, *self._torque))
         self.turns = turns[: place.value]
         if end == End.NO_MEMORY:
             raise MemoryError("no memory for the steps of a rotor")

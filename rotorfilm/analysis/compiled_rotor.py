@@ -172,7 +172,7 @@ class Parts(NamedTuple):
 
     @property
     def nominal_speed(self) -> float:
-        """Largest angular speed [rad/s], 0 where it does not turn; of a motor that known before a run."""
+        """Largest angular speed [rad/s] that is known before a run; 0 where it does not turn."""
         return self.motor.nominal_speed if self.motor else max(abs(value) for value in self.profile.speeds)
 
     @property
@@ -427,7 +427,7 @@ def unbalance_rates(modal: ModalRotor) -> Complex:
 
 
 def rubbing(modal: ModalRotor) -> Array | None:
-    """Return the torque of rotating damping without speed and per rad/s, negative, as `motor.h` has it.
+    """Return the torque of rotating damping at standstill and its decrease per rad/s; see `motor.h`.
 
     Returns
     -------

@@ -43,7 +43,7 @@ JUMP = 1e-3
 """Relative change of K or C of a bearing within a step that was halved so often, from which it is a jump."""
 
 SAME = 0.05
-"""Largest relative distance of a whirl on each side of a jump from that with which it crosses there."""
+"""Largest relative change of a whirl from where it crosses within a jump to either side of it."""
 
 NEAR = 1e-11
 """Difference of frequency and speed, as a part of the speed, at which a crossing is found."""
@@ -140,7 +140,7 @@ class _Search:
         middle = 0.5 * (low + high)
         found = self._proven(low, middle, high)
         if found is not None:  # one at the end is that of the next step too
-            yield from (one for one in found if high == self.end or high - one.speed > NEAR * self.top)
+            yield from self._inside(found, high)
         elif halvings:
             yield from self._between(low, middle, halvings - 1, most)
             yield from self._between(middle, high, halvings - 1, most)
@@ -150,7 +150,11 @@ class _Search:
             if over is None or not all(self._keeps(one, rests) for one in over):
                 self._leave(low, high)
             else:
-                yield from over
+                yield from self._inside(over, high)
+
+    def _inside(self, found: list[Crossing], high: float) -> list[Crossing]:
+        """Return the crossings before the end of a step, which belongs to the next one."""
+        return [one for one in found if high == self.end or high - one.speed > NEAR * self.top]
 
     def _over_jump(self, rests: Rests, part: tuple[float, float], halvings: int) -> list[Crossing] | None:
         """Return the crossings on a part of the straight way over a jump; None if that is not proven."""
@@ -235,7 +239,8 @@ class _Search:
             found = [self._crossing(span, one) for one in told[0]]
         except ConvergenceError:
             return None
-        return [one for one in found if one is not None]
+        kept = [one for one in found if one is not None]
+        return kept if len(kept) == len(found) or span.accounts_for(len(kept)) else None
 
     def _crossing(self, span: SpannedModes, start: Crossing) -> Crossing | None:
         """Return where a whirl crosses within a step; None if it does so beyond."""
@@ -405,6 +410,20 @@ class SpannedModes:
             self._candidate(ways, k, float(-leads[k] / rates[k])) for k in np.flatnonzero(near).tolist()
         ], self._error(ways.places[near])
 
+    def net_crossings(self) -> int:
+        """Return by how many the whirls faster than the rotation differ from end to end."""
+        lines = self.middle - self.half, self.middle + self.half
+        counts = [
+            int(np.sum(np.linalg.eigvals(system.state_matrix()).imag > line))
+            for system, line in zip(self.systems[::2], lines, strict=True)
+        ]
+        return abs(counts[1] - counts[0])
+
+    def accounts_for(self, found: int) -> bool:
+        """Return whether so many crossings can explain the whirls that are faster at one end only."""
+        count = self.net_crossings()
+        return count <= found and (found - count) % 2 == 0
+
     def _candidate(self, ways: Branches, k: int, change: float) -> Crossing:
         place, change = ways.places[k], min(max(change, -self.half), self.half)
         values, right, left = self.modes
@@ -480,16 +499,8 @@ class Leap(SpannedModes):
         )
 
     def passing(self, candidates: list[Crossing]) -> list[Crossing] | None:
-        """Return those that may cross within the part if they do; None if a smaller part must tell."""
-        if not candidates:
-            return []
-        faster = [
-            int(np.sum(np.linalg.eigvals(system.state_matrix()).imag > line))
-            for system, line in zip(
-                self.systems[::2], (self.middle - self.half, self.middle + self.half), strict=True
-            )
-        ]
-        count = abs(faster[1] - faster[0])
+        """Return the candidates that cross within the part; None if a smaller part must tell."""
+        count = self.net_crossings() if candidates else 0
         if count == len(candidates):
             return candidates
         return [] if count == 0 and len(candidates) == 1 else None

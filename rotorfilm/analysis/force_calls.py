@@ -137,6 +137,8 @@ def _call_of(law: Callable[[Any], tuple[Array, Array]], raised: list[BaseExcepti
     """
 
     def answer(_: Any, state: Any, value: Any, slopes: Any) -> int:
+        if raised:  # an interrupt, say: the loop is to end
+            return Status.NOT_FINITE
         try:
             for into, found in zip((value, slopes), law(state), strict=True):
                 for i, number in enumerate(found.ravel().tolist()):
@@ -173,7 +175,7 @@ class CrackForce(NamedTuple):
 
 
 def torque_call(torque: Any) -> FilmCall:
-    """Return the torque of a motor over (time, speed) in C, one that calls back where it is not."""
+    """Return the torque of a motor over (time, speed): that of a `LinearMotor` in C, others in Python."""
     if type(torque) is LinearMotor:
         return FilmCall.of_numbers("rf_line_torque_at", torque.line)
 

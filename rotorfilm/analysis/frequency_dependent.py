@@ -20,7 +20,7 @@ from ..rotors.structure import Structure
 from . import rotor_matrices
 from .coefficients import GROWTH_ROUNDOFF
 from .modal_reduction import all_rows, models, usual_frequency
-from .rotor_equilibrium import Rests, RotorEquilibrium
+from .rotor_equilibrium import EquilibriumSearch, RotorEquilibrium
 
 REACH = 20.0
 """Frequency / speed up to which exponents are told apart in the phase; few faster ones feel the oil."""
@@ -160,7 +160,7 @@ def _without_mass(film: FrequencyDependentCoefficients) -> tuple[Coefficients, D
 
 
 def require_all_growing(
-    rotor: FlexibleRotor, rests: Rests, speed: float, values: np.ndarray, growing: int
+    rotor: FlexibleRotor, rests: EquilibriumSearch, speed: float, values: np.ndarray, growing: int
 ) -> None:
     """Raise ConvergenceError unless as many exponents of a rotor grow as were found.
 

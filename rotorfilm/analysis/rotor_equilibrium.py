@@ -164,8 +164,8 @@ def rest(
     )
 
 
-class Rests:
-    """Where a rotor rests at the speeds that were asked for: each search begins at the nearest of them.
+class EquilibriumSearch:
+    """Equilibria of a rotor, each found once: every search begins at those of the nearest speeds.
 
     Parameters
     ----------

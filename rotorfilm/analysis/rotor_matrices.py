@@ -24,7 +24,7 @@ from ..core.results import (
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, force_rows, freedom_rows, hysteresis_matrices, in_order, is_sparse
 from .modal_reduction import MARGIN, Condensed, all_rows, lu_solver, models, usual_frequency
-from .rotor_equilibrium import Rests, RotorEquilibrium
+from .rotor_equilibrium import EquilibriumSearch, RotorEquilibrium
 
 
 class SecondOrder(NamedTuple):
@@ -624,13 +624,13 @@ BESIDE = 1e-9
 """Distance of the shift from the eigenvalue / (its size + speed)."""
 
 
-def value_error(rotor: FlexibleRotor, rests: Rests, speed: float, value: complex) -> float:
+def value_error(rotor: FlexibleRotor, rests: EquilibriumSearch, speed: float, value: complex) -> float:
     """Return the estimated error of an eigenvalue by the shapes that were left out [1/s]; 0 without such.
 
     Parameters
     ----------
     rotor : FlexibleRotor
-    rests : Rests
+    rests : EquilibriumSearch
         The rests in the bearings of `rotor_modes`, from which the eigenvalue is.
     speed : float [rad/s]
     value : complex [1/s]

@@ -31,7 +31,7 @@ from ..rotors.structure import Structure
 from . import modal_reduction
 from .critical import Crossing, crossings
 from .frequency_dependent import frequency_dependent_motions
-from .rotor_equilibrium import Rests, RotorEquilibrium
+from .rotor_equilibrium import EquilibriumSearch, RotorEquilibrium
 from .rotor_matrices import (
     HELD,
     FullRotorModel,
@@ -226,12 +226,12 @@ def rotor_modes(
         If there is no equilibrium.
     """
     with modal_reduction.counted(*modal_reduction.COUNTS) as work:
-        motions = motions_at(rotor, Rests(bearings), speed, highest_frequency)
+        motions = motions_at(rotor, EquilibriumSearch(bearings), speed, highest_frequency)
     return replace(whirls_of(motions, highest_frequency), work=dict(work))
 
 
 def motions_at(
-    rotor: FlexibleRotor, rests: Rests, speed: float, highest_frequency: float = math.inf
+    rotor: FlexibleRotor, rests: EquilibriumSearch, speed: float, highest_frequency: float = math.inf
 ) -> RotorModes:
     """Return the whirls at a speed, also beyond `highest_frequency`, and motions that do not oscillate."""
     require_flexible(rotor)
@@ -631,7 +631,7 @@ def campbell(
     """
     grid = speeds_in_turn(speeds)
     require_range(highest_frequency)
-    rests, furthest = Rests(bearings), _BEYOND * highest_frequency
+    rests, furthest = EquilibriumSearch(bearings), _BEYOND * highest_frequency
     with modal_reduction.counted(*modal_reduction.COUNTS) as work:
         motions = (motions_at(rotor, rests, float(speed), furthest) for speed in grid)
         points = [whirls_of(one, furthest) for one in motions]

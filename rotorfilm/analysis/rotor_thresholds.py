@@ -21,7 +21,7 @@ from ..rotors import FlexibleRotor
 from . import modal_reduction
 from .coefficients import GROWTH_ROUNDOFF
 from .frequency_dependent import require_all_growing
-from .rotor_equilibrium import Rests
+from .rotor_equilibrium import EquilibriumSearch
 from .rotor_matrices import oscillates, value_error, whirl_near
 from .rotor_modes import RotorModes, bands_of, directions, motions_at, speeds_in_turn
 from .threads import one_blas_thread
@@ -129,7 +129,7 @@ def rotor_threshold(
     ConvergenceError
         If that count is another than that of the exponents found.
     """
-    search = _Stability(modal_reduction.whirling(rotor, bearings), Rests(bearings))
+    search = _Stability(modal_reduction.whirling(rotor, bearings), EquilibriumSearch(bearings))
     grid = speeds_in_turn(speeds)
     with modal_reduction.counted(*modal_reduction.COUNTS) as work:
         unstable = search.growing(float(grid[0])) > 0
@@ -178,7 +178,7 @@ def stability_changes(
     """
     with modal_reduction.counted(*modal_reduction.COUNTS) as work:
         found = list(
-            _Stability(modal_reduction.whirling(rotor, bearings), Rests(bearings)).changes(
+            _Stability(modal_reduction.whirling(rotor, bearings), EquilibriumSearch(bearings)).changes(
                 speeds_in_turn(speeds), report
             )
         )
@@ -192,7 +192,7 @@ def first_growing(rotor: FlexibleRotor, bearings: Bearings, speeds: Array) -> tu
     Growth at the highest speed tells whether there is one, and halving which is the first: growth that ceases
     again within the range goes unseen.
     """
-    rotor, rests = modal_reduction.whirling(rotor, bearings), Rests(bearings)
+    rotor, rests = modal_reduction.whirling(rotor, bearings), EquilibriumSearch(bearings)
 
     def growing(speed: float) -> NDArray[np.complex128]:
         motions = motions_at(rotor, rests, speed)
@@ -231,7 +231,7 @@ class _Stability(NamedTuple):
     """The search for changes of stability of a rotor on its films."""
 
     rotor: FlexibleRotor
-    rests: Rests
+    rests: EquilibriumSearch
 
     def growth(self, speed: float) -> _Growth:
         """Return Re s / |s| of whirls; of others Re s / (|s| + |speed|), which divergence takes through 0."""

@@ -327,11 +327,11 @@ def plan_of(scheme: schemes.Scheme) -> dict[str, float] | None:
         gentle = kind is schemes.SIMemory
         return {"scheme": constant("RF_TANGENTIAL"), "behind": TANGENTIAL[kind], "gentle": gentle}
     if isinstance(scheme, schemes.Newton) and kind is schemes.Newton:
-        return {"scheme": constant("RF_NEWTON"), "tolerance": scheme.tolerance, "most": scheme.most}
+        most = min(scheme.most, 2**31 - 1)
+        return {"scheme": constant("RF_NEWTON"), "tolerance": scheme.tolerance, "most": most}
     if isinstance(scheme, schemes.Adaptive) and kind is schemes.Adaptive:
-        own = None if isinstance(scheme.scheme, schemes.SIMemory) else plan_of(scheme.scheme)
-        if own is not None and own["scheme"] == constant("RF_TANGENTIAL"):
-            return {**own, "adaptive": 1, "tolerance": scheme.tolerance}
+        own = plan_of(scheme.scheme) if type(scheme.scheme) in (schemes.SIExp, schemes.SIExp3) else None
+        return own and {**own, "adaptive": 1, "tolerance": scheme.tolerance}
     return None
 
 
@@ -351,7 +351,7 @@ def compiled_run(
     slaves = [partners.rotor, *partners.films.values()]
     found = [slave.compiled(film=number > 0) for number, slave in enumerate(slaves)]
     known = [partner for partner in found if partner is not None]
-    if len(known) < len(found):
+    if len(known) < len(found) or (scheme.needs.rollback and not all(one.goes_back for one in known)):
         return None
     plan |= {"gentle": True} if gentle else {}
     return CompiledRun(partners, known[0], known[1:], plan, record, watch, macro_step, np.array(points))

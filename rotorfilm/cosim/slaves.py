@@ -445,6 +445,12 @@ class CompiledPartner:
         """Return the inputs of a kernel at present."""
         return dict(zip(self.inputs, _numbers(self.own.u, len(self.inputs)), strict=True))
 
+    @property
+    def goes_back(self) -> bool:
+        """Whether its state can be saved, restored and freed in C."""
+        struct = self.struct
+        return self.own is not None or bool(struct.save and struct.restore and struct.forget)
+
     def beyond(self) -> dict[str, float] | None:
         """Return the first inputs since the last call at which a kernel was beyond its verified range."""
         if self.own is None or not self.own.outside:

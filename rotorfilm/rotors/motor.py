@@ -23,7 +23,12 @@ from .structure import AroundStructure, FlexibleRotor, beside, force_rows
 
 @runtime_checkable
 class DriveTorque(Protocol):
-    """What drives a shaft, all resistances of machine and bearings taken off: a motor of one's own."""
+    """What drives a shaft, all resistances of machine and bearings taken off: a motor of one's own.
+
+    It may tell its `breakpoints`, the times of kinks [s], and a `nominal_speed` [rad/s], the largest speed
+    that it leads to. Compiled runs relate errors of velocities to this speed. Without it they take the speed
+    at t = 0, and a run from standstill then needs several times as many steps.
+    """
 
     def torque(self, t: float, speed: float) -> float:
         """Return the torque about +z [N m] at a time [s] and an angular speed [rad/s]."""

@@ -21,7 +21,7 @@ from studies.master_cases import (
 
 from rotorfilm import with_springs
 from rotorfilm.bearings.damper import MapSqueeze, PorousCage, PorousDamper
-from rotorfilm.cosim import Newton, cosimulate
+from rotorfilm.cosim import Adaptive, Newton, SIMemory, cosimulate
 from rotorfilm.rotors import RigidRotor, RigidShaft, mount
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.CouplingWarning")
@@ -101,6 +101,12 @@ def test_models_with_kernels_go_through_c_and_others_do_not(compiled, make_sprin
     cosimulate(ROTOR, BEARING, **arguments)
     cosimulate(ROTOR, make_spring_damper(1e6, 1e4), **arguments)
     assert [part is None for part in compiled] == [False, True]
+
+
+def test_adaptive_steps_of_what_c_does_not_know_run_in_python(compiled):
+    for inner in (SIMemory(), Newton(), Adaptive(tolerance=1e-5)):
+        cosimulate(ROTOR, BEARING, macro_step=STEP, duration=3 * STEP, scheme=Adaptive(scheme=inner))
+    assert compiled == [None] * 3
 
 
 def test_a_step_that_newton_cannot_end_is_told_as_in_python(native_fmus, outcome):

@@ -136,6 +136,16 @@ def test_a_critical_speed_within_a_small_jump_is_found_to_a_part_of_a_step(befor
 
 
 @pytest.mark.closed_form
+@pytest.mark.parametrize("size", [0.03, 0.2, 0.7])
+def test_a_jump_at_a_given_speed_hides_no_critical_speed(size):
+    grid = np.linspace(95.0, 106.0, 8)
+    for at in grid[1:-1]:
+        spring = JumpingSpring(10.0 * (at + 0.5 * size) ** 2, 10.0 * (at - 0.5 * size) ** 2, at)
+        found = critical_speeds(bouncing(), {"left": spring, "right": spring}, grid)
+        assert_allclose([one.speed for one in found], [at, at], rtol=1e-4)
+
+
+@pytest.mark.closed_form
 def test_a_whirl_that_leaps_on_one_side_of_the_rotation_is_none():
     spring = JumpingSpring(10.0 * 50.0**2, 10.0 * 90.0**2, 100.0)
     found = critical_speeds(bouncing(), {"left": spring, "right": spring}, [30.0, 170.0])

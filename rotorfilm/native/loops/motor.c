@@ -1,5 +1,6 @@
 #include "motor.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -58,7 +59,8 @@ double rf_set_turns(const rf_march *march, rf_scratch *at)
     for (int32_t i = 0; i < march->scheme.stages; ++i) {
         double *row = at->guess + i * channels;
         rf_set_turn(march, at, at->h, march->scheme.nodes[i], turn);
-        change = fmax(change, fabs(turn[0] - at->turned[i]));
+        const double rounded = 8.0 * DBL_EPSILON * fabs(turn[0]); /* after many turns */
+        change = fmax(change, fmax(0.0, fabs(turn[0] - at->turned[i]) - rounded));
         change = fmax(change, fabs(turn[1] - at->speed[i]) / march->motor.rate);
         at->turned[i] = turn[0];
         at->speed[i] = turn[1];

@@ -356,6 +356,8 @@ static int by_newton(rf_coupling *c, const rf_found *f, rf_law *law, double t, d
             return RF_COUPLED;
         ended = restore(c);
         correct(c, f);
+        if (!all_finite(f->held, m))
+            break;
     }
     return ended ? ended : RF_ROTOR_WAITING;
 }
@@ -403,6 +405,7 @@ static int adapted(rf_coupling *c, const rf_found *f, rf_law *law, double t, dou
     while (*dt >= shortest) {
         int ended = save(c);
         make_law(c, law);
+        c->reached = t + *dt;
         if (!ended)
             ended = by_law(c, f, law, t, *dt);
         if (ended)

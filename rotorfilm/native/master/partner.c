@@ -129,7 +129,7 @@ int rf_restore_partner(rf_partner *p)
 
 void rf_forget_partner(rf_partner *p)
 {
-    if (!p->saved)
+    if (!p->saved || p->status == fmi2Fatal) /* which forbids all further calls, as that of FMI 3 does */
         return;
     if (p->kind == RF_IS_FMI2)
         ((fmi2FreeFMUstateTYPE *)p->forget)(p->component, &p->saved);
