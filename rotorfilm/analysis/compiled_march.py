@@ -96,7 +96,8 @@ def simulate_rotor(
         State at t = 0, instead of the rotor's own.
     rtol : float [1]
         Local error of the journals at every moment: displacement / clearance and velocity /
-        (clearance speed). On a motor also that of the angle, in rad, and of the speed over the largest.
+        (clearance speed). On a motor also that of the angle, in rad, and of the speed. There velocities and
+        speed are divided by the largest speed that is known before the run, as the idle speed.
     max_step : float [s]
     condensation : float [1]
         Largest displacement of a journal by the neglected shapes of a large shaft, in clearances. With 0 the

@@ -22,6 +22,7 @@ from studies.master_cases import (
 from rotorfilm import with_springs
 from rotorfilm.bearings.damper import MapSqueeze, PorousCage, PorousDamper
 from rotorfilm.cosim import Adaptive, Newton, SIMemory, cosimulate
+from rotorfilm.fmu.instance import Instance
 from rotorfilm.rotors import RigidRotor, RigidShaft, mount
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.core.errors.CouplingWarning")
@@ -107,6 +108,21 @@ def test_adaptive_steps_of_what_c_does_not_know_run_in_python(compiled):
     for inner in (SIMemory(), Newton(), Adaptive(tolerance=1e-5)):
         cosimulate(ROTOR, BEARING, macro_step=STEP, duration=3 * STEP, scheme=Adaptive(scheme=inner))
     assert compiled == [None] * 3
+
+
+def test_fmus_whose_states_cannot_be_freed_run_in_python(native_fmus, compiled, monkeypatch):
+    """FMI asks for this function; without it, a call from C would end the process."""
+    whole = Instance.entry
+
+    def entry(self):
+        version, component, functions = whole(self)
+        return version, component, {k: v for k, v in functions.items() if k != "forget"}
+
+    monkeypatch.setattr(Instance, "entry", entry)
+    pair = native_fmus["law"], native_fmus["film"]
+    for scheme in (Newton(), SIMemory()):
+        cosimulate(*pair, macro_step=STEP, duration=3 * STEP, scheme=scheme)
+    assert [part is None for part in compiled] == [True, False]
 
 
 def test_a_step_that_newton_cannot_end_is_told_as_in_python(native_fmus, outcome):
