@@ -510,7 +510,7 @@ class March:
         spins = speed is not None and modal.parts.turns and changes
         self._spin = compiled_rotor.spin_rates(modal) if spins else None
         self._torque: tuple[FilmCall, ...] = () if motor is None else (torque_call(motor.torque),)
-        self._rubbing = compiled_rotor.rubbing(modal)
+        self._damping = compiled_rotor.rotating_damping_torque(modal)
         self.turns = np.empty((0, 3))
         excited = modal.parts.excited
         self._excited = None if excited is None else np.ascontiguousarray(excited)
@@ -563,7 +563,7 @@ class March:
         made = structure("rf_motor")
         if motor is None:
             return made()
-        rubbed = None if self._rubbing is None else self._rubbing.ctypes.data
+        rubbed = None if self._damping is None else self._damping.ctypes.data
         gravity = (c_double * 2)(*(self.modal.parts.structure.unbalance.T @ motor.gravity))
         numbers = motor.inertia, rate_of(self.modal), band, gravity
         return made(*self._torque[0][:2], rubbed, None, *numbers)

@@ -426,7 +426,7 @@ def unbalance_rates(modal: ModalRotor) -> Complex:
     return np.asarray(unbalance.T @ modal.shapes[len(unbalance) : 2 * len(unbalance)])
 
 
-def rubbing(modal: ModalRotor) -> Array | None:
+def rotating_damping_torque(modal: ModalRotor) -> Array | None:
     """Return the torque of rotating damping at standstill and its decrease per rad/s; see `motor.h`.
 
     Returns

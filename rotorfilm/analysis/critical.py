@@ -21,7 +21,7 @@ from ..core.results import added_mass
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, freedom_rows, in_planes
 from . import modal_reduction, rotor_matrices
-from .rotor_equilibrium import RotorEquilibrium, rest
+from .rotor_equilibrium import EquilibriumSearch, RotorEquilibrium, rest
 from .threads import one_blas_thread
 
 REACH = 1.5
@@ -90,20 +90,21 @@ class _Search:
         self.exact = modal_reduction.exact_structure(rotor)
         self.models = modal_reduction.models(rotor, REACH * max(top, 1.0), modal_reduction.FEW)
         self.unproven: list[tuple[float, float]] = []
+        self.search = EquilibriumSearch(bearings, warns=False)
         self.refine()
 
     def refine(self) -> None:
         """Take more shapes."""
         self.model = next(self.models)
-        self.known: dict[float, RotorEquilibrium] = {}
+
+    @property
+    def known(self) -> dict[float, RotorEquilibrium]:
+        """The equilibria in the present shapes, by their speeds."""
+        return self.search.known(self.model.structure)
 
     def at(self, speed: float) -> RotorEquilibrium:
-        """Return the rest at a speed."""
-        speed = float(speed)
-        if speed not in self.known:
-            near = sorted(self.known.values(), key=lambda one: abs(one.speed - speed))[:3]
-            self.known[speed] = rest(self.model.structure, self.bearings, speed, near)
-        return self.known[speed]
+        """Return the equilibrium at a speed."""
+        return self.search.at(self.model.structure, float(speed))
 
     def over(self, grid: Array) -> list[Crossing]:
         """Return the crossings between the speeds of a rising grid.

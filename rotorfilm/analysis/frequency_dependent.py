@@ -160,18 +160,18 @@ def _without_mass(film: FrequencyDependentCoefficients) -> tuple[Coefficients, D
 
 
 def require_all_growing(
-    rotor: FlexibleRotor, rests: EquilibriumSearch, speed: float, values: np.ndarray, growing: int
+    rotor: FlexibleRotor, equilibria: EquilibriumSearch, speed: float, values: np.ndarray, growing: int
 ) -> None:
     """Raise ConvergenceError unless as many exponents of a rotor grow as were found.
 
     Rotors without frequency-dependent films are not asked, nor those with hysteresis, which has no K(s).
     """
-    if not any(map(states_rest, rests.bearings.values())):
+    if not any(map(states_rest, equilibria.bearings.values())):
         return
     structure = next(models(rotor, usual_frequency(rotor, speed))).structure
     if structure.hysteresis is not None:
         return
-    at = rests.at(structure, speed)
+    at = equilibria.at(structure, speed)
     if not rotor_matrices.frequency_dependent_films(at):
         return
     count = rotor_growing(structure, at, values)

@@ -171,19 +171,25 @@ class EquilibriumSearch:
     ----------
     bearings : mapping of str to Reaction
         As in `rotor_equilibrium`.
+    warns : bool
+        Whether every speed may give a warning that the flow of a film is not laminar, not only the first.
     """
 
-    def __init__(self, bearings: port.Bearings) -> None:
-        self.bearings = bearings
+    def __init__(self, bearings: port.Bearings, *, warns: bool = True) -> None:
+        self.bearings, self._warns = bearings, warns
         self._known: dict[int, tuple[Structure, dict[float, RotorEquilibrium]]] = {}
 
+    def known(self, structure: Structure) -> dict[float, RotorEquilibrium]:
+        """Return the equilibria of these matrices so far, by their speeds [rad/s]."""
+        return self._known.setdefault(id(structure), (structure, {}))[1]
+
     def at(self, structure: Structure, speed: float) -> RotorEquilibrium:
-        """Return the rest of a rotor of these matrices at a speed [rad/s], as `rest`."""
-        known = self._known.setdefault(id(structure), (structure, {}))[1]
+        """Return the equilibrium of a rotor of these matrices at a speed [rad/s]; see `rest`."""
+        known = self.known(structure)
         if speed not in known:
             near = sorted(known.values(), key=lambda one: abs(one.speed - speed))[:3]
             known[speed] = rest(structure, self.bearings, speed, near)
-            for bearing in self.bearings.values() if near else ():
+            for bearing in self.bearings.values() if near and self._warns else ():
                 port.warn_of_flow(bearing, speed)
         return known[speed]
 

@@ -624,21 +624,21 @@ BESIDE = 1e-9
 """Distance of the shift from the eigenvalue / (its size + speed)."""
 
 
-def value_error(rotor: FlexibleRotor, rests: EquilibriumSearch, speed: float, value: complex) -> float:
+def value_error(rotor: FlexibleRotor, equilibria: EquilibriumSearch, speed: float, value: complex) -> float:
     """Return the estimated error of an eigenvalue by the shapes that were left out [1/s]; 0 without such.
 
     Parameters
     ----------
     rotor : FlexibleRotor
-    rests : EquilibriumSearch
-        The rests in the bearings of `rotor_modes`, from which the eigenvalue is.
+    equilibria : EquilibriumSearch
+        The equilibria in the bearings of `rotor_modes`, from which the eigenvalue is.
     speed : float [rad/s]
     value : complex [1/s]
     """
     model = next(models(rotor, usual_frequency(rotor, speed)))
     if model.space is None:
         return 0.0
-    at, frequency = rest_near(rests.at(model.structure, speed), value), abs(value.imag)
+    at, frequency = rest_near(equilibria.at(model.structure, speed), value), abs(value.imag)
     system = small_motion(model.structure, at, frequency)
     start = np.random.default_rng(0).normal(size=len(system.mass)) + 0j
     shift = value + BESIDE * (abs(value) + abs(speed))

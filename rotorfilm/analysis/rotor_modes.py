@@ -231,7 +231,7 @@ def rotor_modes(
 
 
 def motions_at(
-    rotor: FlexibleRotor, rests: EquilibriumSearch, speed: float, highest_frequency: float = math.inf
+    rotor: FlexibleRotor, equilibria: EquilibriumSearch, speed: float, highest_frequency: float = math.inf
 ) -> RotorModes:
     """Return the whirls at a speed, also beyond `highest_frequency`, and motions that do not oscillate."""
     require_flexible(rotor)
@@ -242,7 +242,7 @@ def motions_at(
     )
     reach = _FAR * highest_frequency
     found = (
-        _motions(model, rests.at(model.structure, speed), known_to, reach)
+        _motions(model, equilibria.at(model.structure, speed), known_to, reach)
         for model in modal_reduction.models(rotor, known_to)
     )
     return next(motions for motions in found if motions.error <= modal_reduction.TOLERANCE)
@@ -631,9 +631,9 @@ def campbell(
     """
     grid = speeds_in_turn(speeds)
     require_range(highest_frequency)
-    rests, furthest = EquilibriumSearch(bearings), _BEYOND * highest_frequency
+    equilibria, furthest = EquilibriumSearch(bearings), _BEYOND * highest_frequency
     with modal_reduction.counted(*modal_reduction.COUNTS) as work:
-        motions = (motions_at(rotor, rests, float(speed), furthest) for speed in grid)
+        motions = (motions_at(rotor, equilibria, float(speed), furthest) for speed in grid)
         points = [whirls_of(one, furthest) for one in motions]
     tracks = tracked(points, rotor.assembly.mass)
     values = np.full((len(tracks), len(grid)), complex(math.nan, math.nan))

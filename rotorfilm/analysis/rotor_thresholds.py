@@ -192,10 +192,10 @@ def first_growing(rotor: FlexibleRotor, bearings: Bearings, speeds: Array) -> tu
     Growth at the highest speed tells whether there is one, and halving which is the first: growth that ceases
     again within the range goes unseen.
     """
-    rotor, rests = modal_reduction.whirling(rotor, bearings), EquilibriumSearch(bearings)
+    rotor, equilibria = modal_reduction.whirling(rotor, bearings), EquilibriumSearch(bearings)
 
     def growing(speed: float) -> NDArray[np.complex128]:
-        motions = motions_at(rotor, rests, speed)
+        motions = motions_at(rotor, equilibria, speed)
         values = motions.eigenvalues
         return values[motions.grows & (values.real > GROWTH_ROUNDOFF * (np.abs(values) + speed))]
 
@@ -231,11 +231,11 @@ class _Stability(NamedTuple):
     """The search for changes of stability of a rotor on its films."""
 
     rotor: FlexibleRotor
-    rests: EquilibriumSearch
+    equilibria: EquilibriumSearch
 
     def growth(self, speed: float) -> _Growth:
         """Return Re s / |s| of whirls; of others Re s / (|s| + |speed|), which divergence takes through 0."""
-        motions = motions_at(self.rotor, self.rests, speed)
+        motions = motions_at(self.rotor, self.equilibria, speed)
         values, whirls = motions.eigenvalues, oscillates(motions.eigenvalues)
         size = np.abs(values) + np.where(whirls, 0.0, abs(motions.speed))
         rates = np.where(motions.grows, values.real, np.minimum(values.real, 0.0)) / size
@@ -249,7 +249,7 @@ class _Stability(NamedTuple):
     def _counted(self, speed: float) -> _Growth:
         """Return what grows at a speed, with a proof on frequency-dependent films that it is all."""
         found = self.growth(speed)
-        require_all_growing(self.rotor, self.rests, speed, found.motions.eigenvalues, found.growing)
+        require_all_growing(self.rotor, self.equilibria, speed, found.motions.eigenvalues, found.growing)
         return found
 
     def changes(self, speeds: Array, report: Report) -> Iterator[StabilityChange]:
@@ -289,7 +289,7 @@ class _Stability(NamedTuple):
         found = self._followed(k, seen[near], root) or self._on_line(k, seen)
         speed, value, shape, slope = found
         size = _size(value, speed)
-        change = value_error(self.rotor, self.rests, speed, value)
+        change = value_error(self.rotor, self.equilibria, speed, value)
         whirls = bool(oscillates(np.array(value)))
         direction = directions(self.rotor.assembly, shape[:, None], speed)[0] if whirls else 0.0
         return StabilityChange(
@@ -323,7 +323,7 @@ class _Stability(NamedTuple):
         speed = start.motions.speed
         for _ in range(_SECANTS if oscillates(np.array(value)) else 0):
             try:
-                at = self.rests.at(model.structure, speed)
+                at = self.equilibria.at(model.structure, speed)
                 bands = bands_of(whole, abs(speed))
                 frequency = next(one for one, below, above in bands if below <= value.imag < above)
                 value, shape, _ = whirl_near(whole, at, frequency, value, shape)

@@ -125,7 +125,8 @@ def test_each_kernel_links_from_its_own_sources(tmp_path):
         (tmp_path / platforms.KERNEL_LIST).write_bytes(own[platforms.KERNEL_LIST])
         objects = [path[:-1] + "o" for path in own if path.endswith(".c") and path != "kernels/kernels.c"]
         command = [compiler, *options, "-shared", "-Wl,--no-undefined", "kernels/kernels.c", *objects, "-lm"]
-        subprocess.run([*command, "-o", "library"], check=True, cwd=tmp_path)
+        subprocess.run([*command, "-o", f"{kernel}.so"], check=True, cwd=tmp_path)
+        assert (tmp_path / f"{kernel}.so").stat().st_size > 0
 
 
 def test_an_unknown_machine_is_named(monkeypatch):

@@ -658,8 +658,8 @@ class ConservedFilm:
         known, key = _recent(self), (rate, *place.tolist())
         found = known.get(key)
         if found is None:
-            if len(known) >= RECENT:
-                del known[next(iter(known))]
+            for oldest in list(known)[: len(known) - RECENT + 1]:  # other threads may do the same
+                known.pop(oldest, None)
             guess = _full_nearby(known, key)
             found = known[key] = self.solve(self.gap(place), rate, guess=guess)
         return found
@@ -809,10 +809,9 @@ def _full_nearby(known: dict[tuple[float, ...], ConservedState], key: tuple[floa
         places = zip(one[1:], key[1:], strict=True)
         return abs(one[0] - key[0]) / abs(key[0] or 1.0) + sum(abs(a - b) for a, b in places)
 
-    nearest = min(known, key=apart, default=None)
-    if nearest is None or apart(nearest) > NEARBY:
-        return None
-    return known[nearest].solution.full
+    states = list(known.items())  # which other threads may add to
+    place, nearest = min(states, key=lambda one: apart(one[0]), default=(key, None))
+    return nearest.solution.full if nearest is not None and apart(place) <= NEARBY else None
 
 
 @once_for_each

@@ -34,7 +34,7 @@ typedef struct rf_excitation {
 typedef struct rf_motor {
     rf_response torque;    /* torque and its slope at a state (time, speed); NULL where the speed is given */
     const void *of;
-    const double *rubbed;  /* 2 x (2 modes + 1) squared: z' (R0 - w R1) z, z real and imaginary parts and 1, or NULL */
+    const double *damping;  /* 2 x (2 modes + 1) squared: z' (R0 - w R1) z, z real and imaginary parts and 1, or NULL */
     double *turns;         /* 3 for each time of the grid: angle, speed and acceleration there */
     double inertia, rate;  /* rate: typical speed */
     double band;           /* how far the speed may leave that of the modes */

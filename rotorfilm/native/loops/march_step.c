@@ -31,7 +31,7 @@ int rf_open_scratch(rf_scratch *at, const rf_march *march)
     double **const places[] = {&at->u,      &at->guess, &at->start, &at->both,   &at->free, &at->motion,
                                &at->before, &at->speed, &at->turned, &at->force, &at->slope, &at->drive,
                                &at->drive_before, &at->drive_start, &at->push, &at->matrix, &at->right,
-                               &at->time, &at->torque, &at->rubbed, &at->by_speed, &at->gain};
+                               &at->time, &at->torque, &at->damping, &at->by_speed, &at->gain};
     const size_t count = sizeof sizes / sizeof *sizes, named = sizeof places / sizeof *places;
     size_t total = 0;
     for (size_t k = 0; k < count; ++k)
@@ -41,7 +41,7 @@ int rf_open_scratch(rf_scratch *at, const rf_march *march)
         return RF_MEMORY;
     for (size_t k = 0; k < named; next += sizes[k++])
         *places[k] = next;
-    memset(at->rubbed, 0, s * sizeof *at->rubbed);
+    memset(at->damping, 0, s * sizeof *at->damping);
     at->forced = (rf_complex *)next;
     at->weights = at->forced + modes * s;
     return RF_OK;

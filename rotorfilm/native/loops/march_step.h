@@ -12,7 +12,7 @@ typedef struct rf_scratch {
     double *free, *motion, *before; /* s x rows: without forces, with them, and with those of the last iterate */
     double h, *time;        /* length of the step, and s times */
     double *speed, *turned; /* s: angular speed, and angle */
-    double *torque, *rubbed, *by_speed, *gain; /* s x 2, s, s x 2 n, s x s x rows x (2 n + 1): of motor.h */
+    double *torque, *damping, *by_speed, *gain; /* s x 2, s, s x 2 n, s x s x rows x (2 n + 1): of motor.h */
     double *force, *slope;  /* s x 2 n, s x 2 n x rf_slope_width */
     double *drive, *drive_before; /* s x 2 modes: what spin.h adds, in this step and in the last one */
     double *drive_start, *push;   /* 2 modes: at the start; s x 2 modes: all that acts on the modes */

@@ -135,7 +135,7 @@ void rf_add_motor_equations(const rf_march *march, int32_t nodes, const double *
                 at->matrix[(i * wide + r) * size + j * wide + forces] -= at->by_speed[i * forces + r] * by_speed;
         }
         own[i * wide + forces] += 1.0;
-        at->right[i * wide + forces] = (at->torque[2 * i] + at->rubbed[i] + c * pull[1] - s * pull[0]) / motor->inertia
+        at->right[i * wide + forces] = (at->torque[2 * i] + at->damping[i] + c * pull[1] - s * pull[0]) / motor->inertia
                                        - at->guess[(i + 1) * channels - 1];
     }
 }

@@ -2,9 +2,9 @@
 
    With r = w^2 e - a n, which the unbalance U makes forces of, e = (cos p, sin p), n = e' and a = w',
 
-       I a = torque(t, w) + n (g - s) + rubbed,
+       I a = torque(t, w) + n (g - s) + damping,
 
-   s being the acceleration U' q'' of the unbalance, g what gravity has of it, and `rubbed` the torque of rotating
+   s being the acceleration U' q'' of the unbalance, g what gravity has of it, and `damping` the torque of rotating
    damping (rotors/motor.py). The acceleration a is a polynomial through the nodes of a step as the forces are, in the
    last channel, whose push is zero. Speed and angle are its exact integrals, and Newton's method solves for it along
    with the films' forces. */

@@ -15,10 +15,10 @@ static void set_drive(const rf_march *march, double speed, const double *z, doub
 }
 
 /* The torque of rotating damping at a speed. */
-static double rubbed(const rf_march *march, double speed, const double *z)
+static double damping_torque(const rf_march *march, double speed, const double *z)
 {
     const int32_t wide = 2 * march->rotor.modes + 1;
-    const double *still = march->motor.rubbed, *turning = still + wide * wide;
+    const double *still = march->motor.damping, *turning = still + wide * wide;
     double total = 0.0;
     for (int32_t i = 0; i < wide; ++i) {
         double sum = 0.0;
@@ -37,8 +37,8 @@ void rf_set_drive_start(const rf_march *march, double speed, rf_scratch *at)
         at->both[modes + m] = march->z[m].im;
     }
     set_drive(march, speed, at->both, at->drive_start);
-    if (march->motor.rubbed)
-        at->rubbed[0] = rubbed(march, speed, at->both);
+    if (march->motor.damping)
+        at->damping[0] = damping_torque(march, speed, at->both);
 }
 
 /* What acts on the modes at the nodes, s x 2 modes: forces and drive. */
@@ -98,8 +98,8 @@ void rf_set_spinning_motion(const rf_march *march, const rf_step_table *table, r
         set_seen(march, at->both, motion + i * march->rotor.rows);
         double *const drive = at->drive + 2 * i * march->rotor.modes;
         set_drive(march, at->speed[i], at->both, drive);
-        if (march->motor.rubbed)
-            at->rubbed[i] = rubbed(march, at->speed[i], at->both);
+        if (march->motor.damping)
+            at->damping[i] = damping_torque(march, at->speed[i], at->both);
         rf_add_direct(march, at->guess + i * march->rotor.channels, drive, motion + i * march->rotor.rows);
     }
 }

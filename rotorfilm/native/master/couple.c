@@ -249,32 +249,30 @@ static void keep(rf_coupling *c, const rf_found *f, double time)
     memcpy(c->record.work + 5 * (c->record.count - 1), c->done, sizeof c->done);
 }
 
-/* The state of all before a step that may be repeated, and the way back. */
-static int save(rf_coupling *c)
+/* Call all partners with states of their own; that of a rotor that is integrated here goes from one to another. */
+static int copy_states(rf_coupling *c, int (*call)(rf_partner *), const double *from, double *to)
 {
     rf_rotor *rotor = c->rotor;
     if (rotor->mode == RF_INTEGRATED)
-        memcpy(c->kept, rotor->x, rotor->partner->states * sizeof(double));
-    else if (rf_save_partner(rotor->partner))
+        memcpy(to, from, rotor->partner->states * sizeof(double));
+    else if (call(rotor->partner))
         return failed(c, RF_ROTOR_FAILED, -1);
     for (int32_t k = 0; k < c->stations; ++k)
-        if (rf_save_partner(c->films[k].partner))
+        if (call(c->films[k].partner))
             return failed(c, RF_FILM_FAILED, k);
     return RF_COUPLED;
 }
 
+/* The state of all before a step that may be repeated, and the way back. */
+static int save(rf_coupling *c)
+{
+    return copy_states(c, rf_save_partner, c->rotor->x, c->kept);
+}
+
 static int restore(rf_coupling *c)
 {
-    rf_rotor *rotor = c->rotor;
     ++c->done[4];
-    if (rotor->mode == RF_INTEGRATED)
-        memcpy(rotor->x, c->kept, rotor->partner->states * sizeof(double));
-    else if (rf_restore_partner(rotor->partner))
-        return failed(c, RF_ROTOR_FAILED, -1);
-    for (int32_t k = 0; k < c->stations; ++k)
-        if (rf_restore_partner(c->films[k].partner))
-            return failed(c, RF_FILM_FAILED, k);
-    return RF_COUPLED;
+    return copy_states(c, rf_restore_partner, c->kept, c->rotor->x);
 }
 
 /* Schemes that go back: a step that they cannot end is left to Python, which says why. */
