@@ -458,8 +458,10 @@ class Impeller:
         Outer diameter of the impeller, Dc.
     width : float [m]
         The smaller of the widths of impeller and diffuser at the discharge, Hc.
-    suction_density, discharge_density : float [kg/m3]
-        Suction density and discharge density of the gas before and behind the impeller.
+    suction_density : float [kg/m3]
+        Density of the gas before the impeller.
+    discharge_density : float [kg/m3]
+        Density of the gas behind the impeller.
     alford_factor : float [1]
         Bc: 3 in API 617, molecular weight / 10 in the formula of Wachel (`Impeller.wachel`).
 

@@ -156,8 +156,12 @@ class AnnularSeal(InertialModel):
 
     Parameters
     ----------
-    radius, length, clearance : float [m]
-        Radius, length and clearance of the gap.
+    radius : float [m]
+        Radius of the gap.
+    length : float [m]
+        Axial length of the gap.
+    clearance : float [m]
+        Radial clearance.
     pressure_drop : float [Pa]
         Pressure drop across the seal, including the inlet; positive.
     viscosity : float [Pa s]

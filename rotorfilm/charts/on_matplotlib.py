@@ -11,10 +11,14 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
 from ..core.files import write_atomically
 from .canvas import new_figure, place_labels
 from .picture import BarsMark, CurveMark, FieldMark, LevelMark, NoteMark, Picture, PicturePanel
+
+NARROW = 50.0
+"""Ratio of the ends of a logarithmic axis, below which it is labelled more densely than by decades."""
 
 
 def draw(picture: Picture, given: Any = None) -> list[Axes]:
@@ -57,6 +61,8 @@ def _draw_panel(axes: Any, panel: PicturePanel) -> None:
         axes.set_xlim(*panel.x_limits)
     if panel.y_limits:
         axes.set_ylim(*panel.y_limits)
+    for name in panel.log:
+        _label_narrow_log(getattr(axes, f"{name}axis"))
     if panel.right:
         right.set(ylabel=panel.right, ylim=panel.right_limits)
     if panel.equal:
@@ -66,6 +72,15 @@ def _draw_panel(axes: Any, panel: PicturePanel) -> None:
     else:
         axes.grid(visible=True, alpha=0.3)
     _add_legend(axes, right, panel.legend)
+
+
+def _label_narrow_log(axis: Any) -> None:
+    """Label 1, 2, 5, 10, ... on a logarithmic axis of few decades, where every tick would get a label."""
+    low, high = axis.get_view_interval()
+    if high < NARROW * low:
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_major_formatter(FormatStrFormatter("%g"))
+        axis.set_minor_formatter(NullFormatter())
 
 
 def _add_legend(axes: Any, right: Any, place: str) -> None:

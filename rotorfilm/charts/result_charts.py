@@ -288,7 +288,9 @@ PICTURES: dict[str, dict[str, Describe]] = {
     "RotorAnswer": {
         "campbell": lambda found: rotor_charts.plot_campbell(found.campbell, critical=found.critical_speeds),
         "log_decrement": lambda found: rotor_charts.plot_log_decrement(found.campbell),
-        "response": lambda found: rotor_charts.plot_unbalance_response(found.response),
+        "response": lambda found: rotor_charts.plot_unbalance_response(
+            found.response, critical=found.critical_speeds, threshold=found.threshold.speed
+        ),
     },
     "ShaftRotor": {"rotor": plot_rotor},
     "TabulatedBearing": {"coefficients": film_charts.plot_coefficients},

@@ -141,8 +141,12 @@ def plot_unbalance_response(
     outputs: Sequence[str] | None = None,
     *,
     peak_to_peak: bool = False,
+    critical: Sequence[analysis.CriticalSpeed] = (),
+    threshold: float | None = None,
 ) -> Picture:
     """Describe amplitude [um] and phase [deg] of displacements over speed [rpm], a Bode plot.
+
+    Each place has a color of its own, with a full line along x and a dashed one along y.
 
     Parameters
     ----------
@@ -152,13 +156,27 @@ def plot_unbalance_response(
         Names of displacements; all of the response by default.
     peak_to_peak : bool
         Twice the amplitude, as API 617 has it, in place of zero-to-peak; the label says which.
+    critical : sequence of CriticalSpeed
+        Critical speeds to be marked by lines; those outside the speeds of the response are left out.
+    threshold : float, optional
+        Threshold of stability [rad/s], to be marked likewise: above it whirl that grows hides the response.
     """
     speeds = np.asarray(response.frequency) / RPM
-    sizes, phases = [], []
-    for k, (name, phasor) in enumerate(_phasors(response, outputs)):
-        style = f"C{k % 10}", WITHIN[k % len(WITHIN)]
-        sizes.append(CurveMark(speeds, (2.0 if peak_to_peak else 1.0) * np.abs(phasor), name, *style))
-        phases.append(CurveMark(speeds, np.degrees(np.unwrap(np.angle(phasor))), name, *style))
+    sizes: list[Mark] = []
+    phases: list[Mark] = []
+    for style, phasor in _phasors(response, outputs):
+        sizes.append(CurveMark(speeds, (2.0 if peak_to_peak else 1.0) * np.abs(phasor), *style))
+        phases.append(CurveMark(speeds, np.degrees(np.unwrap(np.angle(phasor))), *style))
+    lines = [(one.speed, "critical speed", "0.4", ":") for one in critical]
+    if threshold is not None:
+        lines.append((threshold, "threshold of stability", "C3", "--"))
+    told = set[str]()
+    for speed, label, color, dash in lines:
+        place = speed / RPM
+        if speeds.min() <= place <= speeds.max():
+            for marks in (sizes, phases):
+                marks.append(LevelMark(place, "" if label in told else label, color, dash, upright=True))
+            told.add(label)
     way = "peak-to-peak" if peak_to_peak else "zero-to-peak"
     above = PicturePanel(sizes, "", f"amplitude, {way} [um]", "Unbalance response", log="y", legend="beside")
     below = PicturePanel(phases, "speed [rpm]", "phase [deg]", legend="none")
@@ -167,11 +185,18 @@ def plot_unbalance_response(
 
 def _phasors(
     response: control.FrequencyResponseData, outputs: Sequence[str] | None
-) -> Iterator[tuple[str, np.ndarray]]:
-    """Yield names and phasors [um] of displacements."""
-    labels = list(response.output_labels)
+) -> Iterator[tuple[tuple[str, str, str], np.ndarray]]:
+    """Yield label, color and dash of displacements, a color for each place, and their phasors [um]."""
+    labels, places = list(response.output_labels), list[str]()
     for name in displacements(labels) if outputs is None else outputs:
-        yield name, 1e6 * np.asarray(response.frdata)[labels.index(name), 0]
+        place, _, axis = name.rpartition("_")
+        if place not in places:
+            places.append(place)
+        label, color = f"{place}, {axis}" if place else name, f"C{places.index(place) % 10}"
+        yield (
+            (label, color, "--" if axis == "y" else "-"),
+            1e6 * np.asarray(response.frdata)[labels.index(name), 0],
+        )
 
 
 def displacements(names: Iterable[str]) -> list[str]:
@@ -193,8 +218,8 @@ def plot_polar_response(
         Names of displacements; all of the response by default.
     """
     speeds, marks = np.asarray(response.frequency) / RPM, list[Mark]()
-    for k, (name, phasor) in enumerate(_phasors(response, outputs)):
-        marks.append(CurveMark(phasor.real, phasor.imag, name, f"C{k % 10}", WITHIN[k % len(WITHIN)]))
+    for style, phasor in _phasors(response, outputs):
+        marks.append(CurveMark(phasor.real, phasor.imag, *style))
         marks += [
             NoteMark(float(phasor[k].real), float(phasor[k].imag), f"{speeds[k]:.0f} rpm")
             for k in sorted({0, int(np.argmax(np.abs(phasor))), len(speeds) - 1})

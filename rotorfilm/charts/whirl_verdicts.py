@@ -78,7 +78,7 @@ def plot_thresholds(result: StudyResult, *, point: tuple[float, float] | None = 
         marks.append(CurveMark([x], [y], "working point", "k", "", marker="*", size=11.0))
     marks.append(LevelMark(HIGHEST, "checked up to here", "0.5", "--"))
     text = "eccentricity ratio eps [1]", "speed * sqrt(clearance * mass / load)\nat the onset of whirl [1]"
-    title = "Whirl threshold of a rigid rotor (unstable above; wrong ones dotted)"
+    title = f"Whirl threshold of a rigid rotor (unstable above; dotted: off by over {100.0 * TOLERANCE:g} %)"
     panel = PicturePanel(marks, *text, title, legend="beside")
     panel = panel._replace(x_limits=(0.0, 1.0), y_limits=(0.0, 1.3 * HIGHEST))
     return Picture((panel,), size=(9.6, 4.8))

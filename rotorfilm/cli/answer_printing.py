@@ -82,14 +82,14 @@ def _without_nan(table: np.ndarray) -> list[list[float | None]]:
 
 def write_rotor(answer: RotorAnswer, folder: Path) -> None:
     """Write the pictures and tables of a rotor."""
-    from ..charts import plot_campbell, plot_log_decrement, plot_unbalance_response, save
+    from ..charts import picture_of, plot_campbell, plot_log_decrement, save
     from ..scenes.solve_shaft import campbell_columns, response_columns
 
     save(plot_campbell(answer.campbell, critical=answer.critical_speeds), folder / "campbell.png")
     save(plot_log_decrement(answer.campbell), folder / "log_decrement.png")
     write_csv(folder / "campbell.csv", campbell_columns(answer))
     if answer.response is not None:
-        save(plot_unbalance_response(answer.response), folder / "unbalance_response.png")
+        save(picture_of(answer, "response"), folder / "unbalance_response.png")
         write_csv(folder / "unbalance_response.csv", response_columns(answer))
     if answer.level_one is not None:
         write_level_one(answer.level_one, folder)

@@ -344,7 +344,13 @@ def _rotor(
         ],
     )
     if answer.response is not None:
-        blocks: list[Block] = [charts.plot_unbalance_response(answer.response, peak_to_peak=True)]
+        bode = charts.plot_unbalance_response(
+            answer.response,
+            peak_to_peak=True,
+            critical=answer.critical_speeds,
+            threshold=answer.threshold.speed,
+        )
+        blocks: list[Block] = [bode]
         if last:
             blocks += _checks(answer.response, bearings, (first, last))
         blocks.append(charts.picture_of(analysis.deflected_shape(rotor, bearings, speed), "orbits"))

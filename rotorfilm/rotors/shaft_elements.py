@@ -31,8 +31,10 @@ class ElasticMaterial:
 
     Parameters
     ----------
-    young_modulus, shear_modulus : float [Pa]
-        Elastic moduli in tension and in shear.
+    young_modulus : float [Pa]
+        Elastic modulus in tension.
+    shear_modulus : float [Pa]
+        Elastic modulus in shear.
     density : float [kg/m3]
         Mass per volume.
     """
@@ -57,14 +59,20 @@ class ShaftElement:
 
     Parameters
     ----------
-    length, outer_diameter, inner_diameter : float [m]
-        Diameters at the first node, and along the whole element unless it is a cone.
+    length : float [m]
+        Length along the axis.
+    outer_diameter : float [m]
+        Outer diameter at the first node, and along the whole element unless it is a cone.
+    inner_diameter : float [m]
+        Inner diameter, likewise; 0 for a solid shaft.
     material : ElasticMaterial
     shear_coefficient : float or None [1]
         kappa; by default that of Cowper for a round section (in the middle of a cone), infinite for a section
         without shear deformation.
-    end_outer_diameter, end_inner_diameter : float or None [m]
-        Diameters at the second node of a cone; None for the same as at the first.
+    end_outer_diameter : float or None [m]
+        Outer diameter at the second node of a cone; None for the same as at the first.
+    end_inner_diameter : float or None [m]
+        Inner diameter there, likewise.
     axial_force : float [N]
         Static tension; negative for compression.
     torque : float [N m]
@@ -509,8 +517,10 @@ class Disk:
     node : int
         Index of the node, from 0 at the first end of the shaft.
     mass : float [kg]
-    diametral_inertia, polar_inertia : float [kg m2]
-        Moments of inertia about a diameter and about the axis.
+    diametral_inertia : float [kg m2]
+        Moment of inertia about a diameter.
+    polar_inertia : float [kg m2]
+        Moment of inertia about the axis.
     skew : float [rad]
         Angle between the axis of the disk and that of the shaft; it excites vibration like an unbalance.
     skew_angle : float [rad]

@@ -106,9 +106,12 @@ class DiskTable(reading.Taking):
     ----------
     mass : float or None [kg]
         Mass of a disk of given mass and inertia.
-    width, outer_diameter, inner_diameter : float [m]
-        Width, outer diameter and inner diameter of a disk of given size; a width and an outer diameter take
-        the place of a mass.
+    width : float [m]
+        Width of a disk of given size; a width and an outer diameter take the place of a mass.
+    outer_diameter : float [m]
+        Outer diameter of such a disk.
+    inner_diameter : float [m]
+        Its inner diameter.
     density : float or None [kg/m3]
         Density of a disk of given size; that of the shaft unless given.
     """
@@ -325,8 +328,10 @@ class CompressorTable:
     supports : tuple of str
         Names of the bearings that are rigid for the critical speed ratio, and between which mid-span is; all
         but seals unless given.
-    smallest_clearance, largest_clearance : float or None [m]
-        Radial clearances of all bearings with a `journal`, each a curve of its own; as they are unless given.
+    smallest_clearance : float or None [m]
+        Smallest radial clearance of all bearings with a `journal`, which has a curve of its own.
+    largest_clearance : float or None [m]
+        Largest radial clearance, likewise; the clearances as they are unless given.
     """
 
     speed: float
@@ -394,8 +399,10 @@ class SpeedRangeTable:
 
     Parameters
     ----------
-    first, last : float [rad/s]
-        Ends of the range.
+    first : float [rad/s]
+        Lowest speed.
+    last : float [rad/s]
+        Highest speed.
     count : int
         Number of speeds, at equal distance.
     """

@@ -157,8 +157,10 @@ class LubricantTable(reading.Taking):
     grade : int or None
         ISO viscosity grade, as "ISO VG 46": the kinematic viscosity at 40 degC. That at 100 degC is assumed
         unless it is given.
-    viscosity_40, viscosity_100 : float or None [m2/s]
-        Kinematic viscosity at 40 and 100 degC.
+    viscosity_40 : float or None [m2/s]
+        Kinematic viscosity at 40 degC.
+    viscosity_100 : float or None [m2/s]
+        Kinematic viscosity at 100 degC.
     supply_temperature : float or None [K]
         Supply temperature of the fresh oil; required with a viscosity.
     density : float or None [kg/m3]
@@ -383,8 +385,10 @@ class StepLoadTable:
     ----------
     load : (float, float) [N]
         In a file one magnitude, along -y, or `[x, y]`.
-    start, end : float [s]
-        When it jumps up and down; the end is never where a file gives none.
+    start : float [s]
+        When it jumps up.
+    end : float [s]
+        When it jumps back; never where a file gives none.
     """
 
     load: Annotated[tuple[float, float], reading.read_load]

@@ -9,6 +9,7 @@ import pytest
 from rotorfilm import InputError, LinearBearing
 from rotorfilm.analysis import Campbell, CriticalSpeed, rotor_modes
 from rotorfilm.charts import (
+    CurveMark,
     LevelMark,
     plot_campbell,
     plot_critical_speed_map,
@@ -91,13 +92,32 @@ def test_unbalance_response_as_amplitude_and_phase():
     np.testing.assert_allclose(below.get_lines()[0].get_ydata(), [0.0, -90.0])
 
 
+def test_unbalance_response_has_a_color_for_each_place_and_marks_the_speeds_that_count():
+    names = ["left_x", "left_y", "disk_x", "disk_y"]
+    response = control.FrequencyResponseData(
+        np.ones((4, 1, 3)), [10.0, 20.0, 40.0], inputs=["unbalance"], outputs=names
+    )
+    critical = [CriticalSpeed(speed=speed, log_decrement=0.1, direction=1.0) for speed in (5.0, 15.0, 25.0)]
+    for panel in plot_unbalance_response(response, critical=critical, threshold=30.0).panels:
+        curves = [mark for mark in panel.marks if isinstance(mark, CurveMark)]
+        assert [(one.color, one.dash) for one in curves] == [
+            ("C0", "-"),
+            ("C0", "--"),
+            ("C1", "-"),
+            ("C1", "--"),
+        ]
+        lines = [mark for mark in panel.marks if isinstance(mark, LevelMark)]
+        np.testing.assert_allclose([one.at for one in lines], np.array([15.0, 25.0, 30.0]) * 30 / np.pi)
+        assert [one.label for one in lines] == ["critical speed", "", "threshold of stability"]
+
+
 def test_unbalance_response_draws_all_displacements_unless_told():
     names = ["left_x", "left_y", "left_vx", "left_vy", "left_housing_force_x", "speed"]
     data = np.arange(1.0, 13.0).reshape(6, 1, 2)
     response = control.FrequencyResponseData(data, [10.0, 20.0], inputs=["unbalance"], outputs=names)
     above, _ = plot_unbalance_response(response, peak_to_peak=True).panels
-    assert list(above.curves) == ["left_x", "left_y"]
-    np.testing.assert_allclose(above.curves["left_x"].y, [2e6, 4e6])
+    assert list(above.curves) == ["left, x", "left, y"]
+    np.testing.assert_allclose(above.curves["left, x"].y, [2e6, 4e6])
     assert above.y == "amplitude, peak-to-peak [um]"
 
 

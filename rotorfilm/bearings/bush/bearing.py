@@ -225,8 +225,10 @@ class MeltingBush:
         Material of the liner.
     shaft : ShaftMaterial
     friction : Friction
-    outer_mean, outer_swing : float [K]
-        Temperature D_0 + D_1 cos(phi) of the liner's outer surface, phi from the load line (2.3).
+    outer_mean : float [K]
+        D_0 in the temperature D_0 + D_1 cos(phi) of the liner's outer surface, phi from the load line (2.3).
+    outer_swing : float [K]
+        D_1 in it, half the difference between the load line and the far side.
     shaft_heat : ShaftHeat
         `ExactShaft()` or, as published, `ApproximateShaft()`.
     balance : HeatBalance

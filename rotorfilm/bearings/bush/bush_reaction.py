@@ -297,8 +297,10 @@ class BushReaction(Called):
         Heat g gamma that melts a unit of volume of the liner, from the melting point.
     nodes : int
         Number of nodes, at least 8.
-    center, extent : float [rad]
-        Middle and width of the arc of nodes, from +x towards +y; 2 pi for all around.
+    center : float [rad]
+        Middle of the arc of nodes, from +x towards +y.
+    extent : float [rad]
+        Width of the arc of nodes; 2 pi for all around.
     melting : MeltingRule
         `SharedMelting()` or `LocalMelting()`.
     retardation : float [s]

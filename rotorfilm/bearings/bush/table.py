@@ -60,8 +60,10 @@ class BushTable(Taking):
         Heat that melts a unit of volume of the liner; the source does not give it.
     material : str
         A name of `MATERIALS`, which gives all data that the table does not.
-    liner_conductivity, shaft_conductivity : float or None [W/(m K)]
-        Thermal conductivities of liner and shaft.
+    liner_conductivity : float or None [W/(m K)]
+        Thermal conductivity of the liner.
+    shaft_conductivity : float or None [W/(m K)]
+        Thermal conductivity of the shaft.
     melting_point : float or None [K]
         Above the ambient temperature, as all temperatures here.
     friction : Friction or None

@@ -42,8 +42,10 @@ class ContactTable(Taking):
         Cells along each side of the film's rectangle.
     order : int
         States of the reduced law.
-    roelands, compressible : bool
-        Laws of viscosity and density, as in `RollingBall.contact`.
+    roelands : bool
+        Whether the viscosity follows Roelands, not Barus, as in `RollingBall.contact`.
+    compressible : bool
+        Whether the density grows with pressure, by Dowson and Higginson.
     angles : tuple of float [rad]
         Angles of the balls that carry a journal, from +x towards +y; empty for a ball on a plane.
     preload : float [N]

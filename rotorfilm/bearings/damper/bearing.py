@@ -154,8 +154,10 @@ class AxialFeed:
 
     Parameters
     ----------
-    start_pressure, end_pressure : float [Pa]
-        Gauge pressure at both ends, the first at negative z. Zero is the pressure at which the film ruptures.
+    start_pressure : float [Pa]
+        Gauge pressure at the end of negative z. Zero is the pressure at which the film ruptures.
+    end_pressure : float [Pa]
+        Gauge pressure at the end of positive z.
     """
 
     start_pressure: float
@@ -180,8 +182,12 @@ class SqueezeFilmDamper(InertialModel):
 
     Parameters
     ----------
-    radius, length, clearance : float [m]
-        Radius, length and clearance of the film.
+    radius : float [m]
+        Radius of the film.
+    length : float [m]
+        Axial length of the film.
+    clearance : float [m]
+        Radial clearance.
     viscosity : float [Pa s]
         Dynamic viscosity of the lubricant.
     cage : PorousCage or None

@@ -34,8 +34,10 @@ class SealsTable:
     ----------
     leakage : float or None [m2/(Pa s)]
         Volume per time, circumference and pressure; 0 for tight seals, as O-rings.
-    gap, gap_length : float or None [m]
-        Instead: a narrow gap, along the radius and along the axis.
+    gap : float or None [m]
+        Instead: radial width of a narrow gap.
+    gap_length : float or None [m]
+        Its length along the axis.
     flow, pressure : float or None [m3/s], [Pa]
         Instead: of a leak test, out of one end.
     uncertainty : float [1]

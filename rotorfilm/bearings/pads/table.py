@@ -317,9 +317,14 @@ class LobedTable(PadTable):
         The film law; if the file does not say, the map of a pad, or what a question needs.
     preset : str or None
         One of the usual sets of `lobe_set`; give this or `lobes`.
-    preload, extent, offset, turned : float or None [1], [rad], [1], [rad]
-        Preload, extent, offset and turned of a preset: preload of each lobe (0.5), its angle, the place of
-        its least film as a share of its arc, and the angle by which all are turned.
+    preload : float or None [1]
+        Of a preset: preload of each lobe, 0.5 unless given.
+    extent : float or None [rad]
+        Of a preset: angle that each lobe covers.
+    offset : float or None [1]
+        Of a preset: place of the least film of each lobe, with the journal centered, as a share of its arc.
+    turned : float or None [rad]
+        Of a preset: angle by which all lobes are turned.
     lobes : tuple of Lobe
         The pads one by one.
     """

@@ -134,15 +134,19 @@ class BallBearing(BallElement):
     ----------
     balls : int
         Number of balls.
-    ball_diameter, pitch_diameter : float [m]
-        Diameter of a ball, and of the circle on which the ball centers lie.
+    ball_diameter : float [m]
+        Diameter of a ball.
+    pitch_diameter : float [m]
+        Diameter of the circle on which the ball centers lie.
     internal_clearance : float or None [m]
         Radial internal clearance as in catalogs (ISO 5753): the whole radial travel of one ring in the other.
         Negative for a preload by a tight fit.
     contact_angle : float or None [rad]
         Contact angle of the unloaded balls, in place of the clearance.
-    inner_conformity, outer_conformity : float [1]
-        Radius of the groove over the diameter of the ball.
+    inner_conformity : float [1]
+        Radius of the inner groove over the diameter of the ball.
+    outer_conformity : float [1]
+        Radius of the outer groove over the diameter of the ball.
     ball_material, ring_material : RollingMaterial
         Steel by default.
     growth : float [m]

@@ -80,9 +80,11 @@ class BallTable(reading.Taking):
         Radial internal clearance of a deep groove bearing; give this or the contact angle.
     contact_angle : float or None [rad]
         Contact angle of the unloaded balls of an angular contact bearing.
-    ball_material, ring_material : RollingMaterial
-        "steel", "silicon_nitride", or a table of young_modulus, poisson_ratio and density. Steel unless
-        given.
+    ball_material : RollingMaterial
+        Of the balls: "steel", "silicon_nitride", or a table of young_modulus, poisson_ratio and density;
+        steel unless given.
+    ring_material : RollingMaterial
+        Of the rings, likewise.
     growth : float [m]
         Radial growth of the inner ring.
     axial_displacement : float [m]
@@ -104,8 +106,10 @@ class BallTable(reading.Taking):
     inertia : StaticBalls or RunningBalls or RaceControl or None
         "static" balls, "running" ones that friction holds, or "race_control"; if the file does not say,
         running ones, or what a question needs.
-    traction_coefficient, slide_to_roll_ratio : float or None [1]
-        Traction coefficient and slide to roll ratio of running balls; None for 0.06 and 0.005.
+    traction_coefficient : float or None [1]
+        Traction coefficient of running balls; None for 0.06.
+    slide_to_roll_ratio : float or None [1]
+        Slide-to-roll ratio of running balls; None for 0.005.
     outer_control : bool or None
         Whether balls under race control spin on the inner race only; None for true.
     viscosity : float or None [Pa s]

@@ -259,8 +259,10 @@ class SectorPads(WarmBearing):
 
     Parameters
     ----------
-    inner_radius, outer_radius : float [m]
-        Inner radius and outer radius of the pads; or `inner_diameter`, `outer_diameter`.
+    inner_radius : float [m]
+        Inner radius of the pads; or `inner_diameter`.
+    outer_radius : float [m]
+        Outer radius of the pads; or `outer_diameter`.
     pads : int
         Number of equal pads, evenly around the shaft; 3 or more have equal stiffness about x and y.
     pad_arc : float [rad]
