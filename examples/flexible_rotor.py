@@ -65,7 +65,8 @@ again = rotor_threshold(small, films, speeds).speed
 print(f"with {len(small.states)} states for {len(rotor.states)}: {again / RPM:.1f} rpm")
 
 response = unbalance_response(rotor, films, resonant_speeds(speeds[speeds < onset.speed], critical))
-shown = plot_unbalance_response(response, ["small_x", "small_y", "left_x", "left_y"])
+outputs = ["small_x", "small_y", "left_x", "left_y"]
+shown = plot_unbalance_response(response, outputs, critical=critical, threshold=onset.speed)
 shown.save("unbalance_response.png")
 
 
