@@ -9,6 +9,7 @@ replaces, marked by -. A benchmark that fails keeps its old output, and the run 
 import difflib
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 HERE = Path(__file__).parent
@@ -20,7 +21,9 @@ def main(names: list[str]) -> int:
     failed = 0
     for name in names or every:
         print(f"=== {name}", flush=True)
+        begun = time.monotonic()
         ran = subprocess.run([sys.executable, str(HERE / f"{name}.py")], capture_output=True, text=True)
+        print(f"{time.monotonic() - begun:.0f} s", flush=True)
         failed += ran.returncode != 0
         if ran.returncode:
             print(ran.stderr, flush=True)
