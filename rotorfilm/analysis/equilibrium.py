@@ -212,7 +212,7 @@ def _found(reaction: Any, load: Array, speed: float) -> Equilibrium:
         best = search_place(target)
         if following and not best.found:
             best = continued_place(target, best)
-    if not best.found:
+    if not (best.found or best.imbalance <= _AT_A_KINK):
         raise EquilibriumError(_why_not(load, target, best))
     found = _result(film, load, target, best)
     if not found.residual <= port.MOST_LEFT:
@@ -226,6 +226,10 @@ def _found(reaction: Any, load: Array, speed: float) -> Equilibrium:
 def _quietly() -> warnings.catch_warnings[None]:
     return warnings.catch_warnings(action="ignore", category=ValidityWarning)
 
+
+_AT_A_KINK = 1e-8
+"""Imbalance, over the load, at which a search may end where the force has a kink, as where a pad begins to
+carry: Newton's method does not get closer there, and the result tells what is left."""
 
 _ENOUGH, _BACK, _PLACES = 1e-12, 40, 60
 """Imbalance, over the load, that is sought; halvings of a step, and steps."""

@@ -1,17 +1,26 @@
 """Losses and heat of tilting pads under a journal at rest."""
 
 import dataclasses
+import warnings
 
 import numpy as np
 import pytest
 
 from rotorfilm import (
     Cooling,
+    Disk,
+    ElasticMaterial,
     InputError,
     Oil,
+    ShaftElement,
+    ShaftRotor,
+    Station,
     TiltingPadBearing,
+    ValidityWarning,
     coefficients,
     equilibrium,
+    even_pivots,
+    rotor_equilibrium,
     whirl_threshold,
 )
 from rotorfilm.bearings import PadGridFilm, PadMapFilm, PadResolution, heat_surplus
@@ -147,3 +156,33 @@ def test_what_the_heat_of_tilting_pads_refuses(five):
         warm.heat_jacobian([0.0, 0.0], [0.0, 0.0], SPEED)
     assert warm.film_at_unit_viscosity() is None
     assert warm.native() is None
+
+
+def test_a_rotor_rests_where_a_pad_gains_its_film():
+    """The power jumps there by that of the pad, so that no temperature balances the heat."""
+    pads = TiltingPadBearing(
+        radius=0.04,
+        length=0.04,
+        assembled_clearance=8e-5,
+        preload=0.3,
+        extent=60.0 * DEGREE,
+        pivots=even_pivots(5, between_pads=True),
+        oil=Oil.iso_vg(32),
+        cooling=Cooling(supply_temperature=318.15),
+    )
+    steel = ElasticMaterial(young_modulus=210e9, shear_modulus=80.8e9, density=7850.0)
+    disk = {"density": 7850.0, "width": 0.06, "outer_diameter": 0.36, "inner_diameter": 0.08}
+    rotor = ShaftRotor(
+        elements=ShaftElement(length=1.6, outer_diameter=0.08, material=steel).split(16),
+        disks=tuple(Disk.solid(node, **disk) for node in (5, 11)),
+        stations=(Station(node=0, name="left"), Station(node=16, name="right")),
+        speed=291.0,
+    )
+    films = {"left": pads, "right": pads}
+    with warnings.catch_warnings(action="ignore", category=ValidityWarning):
+        before, at, after = (
+            rotor_equilibrium(rotor, films, speed) for speed in (291.0, 291.00254704852233, 291.01)
+        )
+    assert at.residual <= 1e-8
+    assert before.temperatures["left"] < at.temperatures["left"] < after.temperatures["left"]
+    assert after.temperatures["left"] - before.temperatures["left"] < 1e-3
