@@ -839,6 +839,8 @@ def sample_times(duration: float, samples: int, times: ArrayLike | None) -> Arra
     grid = np.atleast_1d(require_finite("times", times))
     if grid.ndim != 1 or np.any(np.diff(grid) <= 0.0):
         raise InputError(f"times must increase strictly, got {times!r}")
+    if grid.size and duration < grid[-1] <= duration * (1.0 + 1e-12):  # by roundoff
+        grid = np.append(grid[:-1], duration)
     if grid.size and (grid[0] < 0.0 or grid[-1] > duration):
         raise InputError(f"times must lie within [0, {duration!r}] s, got {grid[0]!r} to {grid[-1]!r}")
     return grid

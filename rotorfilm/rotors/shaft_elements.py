@@ -19,9 +19,13 @@ from ..core.errors import (
     require_non_negative,
     require_number,
     require_positive,
+    warn_user,
 )
 from ..core.inputs import in_si, quantities
 from ..core.model import Array
+
+LEAST_DENSITY = 500.0
+"""Density of the lightest shaft [kg/m3]; far less is meant to be none."""
 
 
 @quantities
@@ -45,6 +49,9 @@ class ElasticMaterial:
 
     def __post_init__(self) -> None:
         require_each(self, require_positive, "young_modulus", "shear_modulus", "density")
+        if 1e-3 * LEAST_DENSITY < self.density < LEAST_DENSITY:
+            given = f"{self.density:g}"
+            warn_user(f"density should be at least {LEAST_DENSITY:g} kg/m3, got {given}: {given} g/cm3?")
 
     @property
     def poisson_ratio(self) -> float:
@@ -538,6 +545,11 @@ class Disk:
     def __post_init__(self) -> None:
         require_each(self, require_number, "skew", "skew_angle")
         require_each(self, require_non_negative, "mass", "diametral_inertia", "polar_inertia")
+        if 0.0 < self.diametral_inertia < 0.499 * self.polar_inertia:
+            warn_user(
+                "diametral_inertia should be at least half of polar_inertia, as that of every body is, got "
+                f"{self.diametral_inertia:g} of {self.polar_inertia:g} kg m2"
+            )
 
     @classmethod
     @in_si

@@ -357,5 +357,6 @@ def film_numbers(
         "peclet": omega * c**2 * oil.density * oil.heat_capacity / oil.conductivity,
         "pressure": compressed * oil.bulk_modulus / ATMOSPHERE,
         "compression": compressed,
+        "mean_pressure": 1e-6 * compressed * oil.bulk_modulus,
         "tilt": 2e3 * c / L,
     }

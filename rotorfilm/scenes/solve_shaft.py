@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -131,6 +131,7 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
     own = (
         *oil_remarks(scene.tables, scene.lubricant),
         *shaft_remarks(rotor, bearings, scene.lubricant.properties, float(speeds[-1])),
+        *(response_remarks(response) if response is not None else ()),
     )
     report(1.0, "done")
     return RotorAnswer(
@@ -302,6 +303,18 @@ def shaft_remarks(
             found += () if tilted else tilt_remarks(rotor, name, bearing, at)
             lines += prefixed(f"{name}, at {speed:.4g} rad/s: ", found)
     return tuple(lines)
+
+
+def response_remarks(response: control.FrequencyResponseData) -> Iterator[str]:
+    """Yield which journals move too far for their films to be linear, of a response to unbalance."""
+    for name, (share, speed) in response.largest_moves.items():
+        touching = share > 1.0
+        numbers = {
+            "share": math.nan if touching else share,
+            "touching": share if touching else math.nan,
+            "rpm": speed * 30.0 / math.pi,
+        }
+        yield from prefixed(f"{name}: ", messages(remarks_of("response"), numbers))
 
 
 def tilt_remarks(

@@ -257,7 +257,7 @@ def test_what_is_no_quantity_goes_in_as_it_is():
         ({"diameter": 100.0, "length": 30.0}, "radius should be 1e-05 to 5 m, got 50: 50 mm?"),
         (
             {"radius": 0.05, "viscosity": 5000.0},
-            "viscosity should be 0 to 1000 Pa s, got 5000: 5000 mPa s?",
+            "viscosity should be 0 to 10 Pa s, got 5000: 5000 mPa s?",
         ),
         ({"clearance": 1e-9}, "clearance should be 1e-08 to 0.01 m, got 1e-09"),
     ],
@@ -270,6 +270,19 @@ def test_a_size_that_is_not_built_is_another_unit(wrong, message):
     with pytest.warns(ValidityWarning) as caught:
         rf.JournalBearing(**given)
     assert message in [str(one.message) for one in caught]
+
+
+def test_a_shaft_lighter_than_wood_and_inertias_of_no_body_are_warned_of():
+    steel = {"young_modulus": 210e9, "shear_modulus": 81e9}
+    with pytest.warns(
+        ValidityWarning, match=r"density should be at least 500 kg/m3, got 7\.85: 7\.85 g/cm3\?"
+    ):
+        rf.ElasticMaterial(**steel, density=7.85)
+    with pytest.warns(ValidityWarning, match=r"diametral_inertia should be at least half of polar_inertia"):
+        rf.Disk(node=0, mass=1.0, diametral_inertia=0.1, polar_inertia=0.9)
+    # A massless shaft and a thin disk, without a warning, which would be an error here.
+    rf.ElasticMaterial(**steel, density=1e-6)
+    rf.Disk(node=0, mass=1.0, diametral_inertia=0.45, polar_inertia=0.9)
 
 
 def test_sizes_are_known_arguments_in_their_units():

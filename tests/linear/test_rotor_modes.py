@@ -243,6 +243,24 @@ def test_unbalance_response_of_the_textbook():
     assert_allclose(housing, (k + 1j * s * natural * zeta * mass * natural) * expected, rtol=1e-9)
 
 
+@pytest.mark.filterwarnings("ignore:speeds should be below the threshold")
+def test_a_response_that_the_film_has_no_room_for_is_warned_of():
+    """Half axis of the orbit, the largest distance over a turn, in least films at rest."""
+    heavy = (Unbalance(node=2, unbalance=2e-2),)
+    small = unbalance_response(friswell(unbalances=(Unbalance(node=2, unbalance=1e-5),)), both(FILM), [90.0])
+    with pytest.warns(
+        ValidityWarning, match=r"the journal of 'right' should move by less than 0\.5 of its least"
+    ):
+        large = unbalance_response(friswell(unbalances=heavy), both(FILM), [90.0, 111.0])
+    rows = [large.output_labels.index(f"left_{axis}") for axis in "xy"]
+    turn = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 3601))
+    rest = rotor_equilibrium(friswell(), both(FILM), 111.0).coefficients["left"].position
+    moved = np.hypot(*(large.complex[rows, 0, 1][:, None] * turn).real).max()
+    share, speed = large.largest_moves["left"]
+    assert (share, speed) == (pytest.approx(moved / (FILM.clearance - np.hypot(*rest)), rel=1e-5), 111.0)
+    assert small.largest_moves["left"].share < 0.01 * share
+
+
 def test_unbalance_response_is_the_motion_of_the_model_in_time():
     """At small unbalance on films: the state that the phasors give moves as they say."""
     rotor = friswell(speed=120.0, internal_damping=1e-5)

@@ -195,7 +195,9 @@ def test_three_fmus_move_as_the_monolithic_model(reduction, folder):
     assert errors[0] / errors[1] == pytest.approx(2.0, rel=0.15)
 
 
-@pytest.mark.filterwarnings("ignore:speeds should be below the threshold")
+@pytest.mark.filterwarnings(
+    "ignore:speeds should be below the threshold", "ignore:the journal of 'left' should"
+)
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
 def test_the_error_of_a_reduction_holds_for_the_response_on_films(tolerance):
     """Unbalance response of journals, at speeds that the search did not look at, within the error stated."""

@@ -9,8 +9,9 @@ from rotorfilm.bearings.bush import questions as bush_remarks
 from rotorfilm.bearings.contact import table as contact_remarks
 from rotorfilm.bearings.damper import candidates as damper_ranges
 from rotorfilm.bearings.journal import table as journal_remarks
-from rotorfilm.scenes import Scene, bundled_scene
+from rotorfilm.scenes import Scene, bundled_scene, parse_scene
 from rotorfilm.scenes.families import Remark, messages, remarks_of
+from rotorfilm.scenes.solve_shaft import solve_rotor
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -42,8 +43,9 @@ def bush():
 
 
 def shaft():
-    remarks = remarks_of("beam", "whirl")
-    return remarks, {"slenderness": 3.0, "step": 2.0, "growth": 0.1, "whirl": 0.5}
+    remarks = remarks_of("beam", "whirl", "response")
+    numbers = {"slenderness": 3.0, "step": 2.0, "growth": 0.1, "whirl": 0.5}
+    return remarks, {**numbers, "share": 0.6, "touching": 2.0, "rpm": 4000.0}
 
 
 @pytest.mark.parametrize("family", [journal, contact, damper, bush, shaft])
@@ -65,3 +67,20 @@ def test_a_remark_is_said_beyond_its_limit():
     assert messages((above, below), {"x": 0.5, "y": 7}) == ("below: 0.5",)
     for x in (1.0, 1.5, 2.0, math.nan):
         assert messages((above, below), {"x": x, "y": 7}) == ()
+
+
+@pytest.mark.parametrize(("load", "said"), [(525.0, set()), (2e3, set()), (3e5, {"roughness", "strength"})])
+def test_films_thinner_than_surfaces_are_rough_and_loads_beyond_the_metal_are_said(load, said):
+    """525 N on 100 x 30 mm are 0.18 MPa, 300 kN are 100 MPa."""
+    scene = bundled_scene()
+    lines = journal_remarks.film_remarks(scene.bearing, scene.lubricant.properties, scene.speed, (0.0, -load))
+    assert {line.partition(":")[0] for line in lines} & {"roughness", "strength"} == said
+    text = "".join(lines)
+    assert ("a mean pressure of 100 MPa" in text) == bool(said)
+
+
+def test_a_response_beyond_its_film_is_said():
+    text = (EXAMPLES / "flexible_rotor.toml").read_text(encoding="utf-8").replace("count = 45", "count = 12")
+    large = solve_rotor(parse_scene(text.replace("1000 g mm", "20000 g mm"), "a.toml")).remarks
+    assert sum("linear film: the unbalance would move the journal by " in line for line in large) == 2
+    assert not any("linear film" in line for line in solve_rotor(parse_scene(text, "a.toml")).remarks)

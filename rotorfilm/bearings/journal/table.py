@@ -255,6 +255,13 @@ SLIGHT = 0.1
 """Eccentricity ratio below which the oil that leaves is too little to take all heat along."""
 
 
+SMOOTH = 1e-7
+"""Least film [m] that separates the finest surfaces of bearings."""
+
+SMALL = 0.01
+"""Radius [m] of a journal, up to which films of a few micrometers are usual."""
+
+
 def journal_numbers(
     bearing: JournalBearing,
     oil: Lubricant,
@@ -279,6 +286,8 @@ def journal_numbers(
         warming and thinning are, where the coarse film has no answer; `unknown` is 1 then, else 0.
         side_flow [m3/s] : oil that leaves at both ends.
         least_film [m] : at rest, with the axes of journal and bearing parallel.
+        rough_film [m] : the same where it separates the finest surfaces, of a journal that is not `SMALL`.
+        mean_pressure [MPa] : load over length and diameter.
         warming [K] : rise of temperature, of the oil that leaves (Peclet number above 1) or between cold
         walls; thinning : relative loss of viscosity by that.
         pressure : mean pressure of the load over the ambient one: how much the rupture pressure matters.
@@ -303,11 +312,13 @@ def journal_numbers(
     warming = min(carried, conducted + share * (carried - conducted))
     if peclet <= 1.0:
         warming = min(warming, conducted)
+    least = c * (1.0 - eccentricity_ratio)
     return {
         **numbers,
         "power": power,
         "side_flow": flow,
-        "least_film": c * (1.0 - eccentricity_ratio),
+        "least_film": least,
+        "rough_film": least if least >= SMOOTH and R > SMALL else math.nan,
         "warming": warming,
         "unknown": float(math.isnan(warming)),
         # A bearing that is given its oil is answered as warm as it gets.

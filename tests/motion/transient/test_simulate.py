@@ -167,6 +167,13 @@ def test_initial_state_replaces_the_rotors_own():
     assert_allclose(one.position, other.position, rtol=1e-12)
 
 
+def test_a_last_time_beyond_the_duration_by_roundoff_is_its_end():
+    times = [0.0, 1e-4 * (1.0 + 4e-16)]
+    run = simulate(FRISWELL, BEARING, duration=1e-4, times=times)
+    assert run.time.tolist() == [0.0, 1e-4]
+    assert times[1] > 1e-4
+
+
 @pytest.mark.parametrize(
     ("arguments", "match"),
     [
