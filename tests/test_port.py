@@ -25,6 +25,7 @@ from rotorfilm import (
 )
 from rotorfilm.analysis import dynamic_stiffness, frozen_coefficients, quasi_static_coefficients
 from rotorfilm.analysis.api617 import cross_coupled
+from rotorfilm.analysis.rotor_matrices import parted_pairs
 from rotorfilm.core.port import force_along
 
 from .port_toys import Rubber, Strips, ThrustSpring
@@ -378,6 +379,19 @@ def test_states_that_grow_by_themselves_are_counted():
     found = rotor_threshold(rotor, {"": growing}, np.linspace(100.0, 400.0, 4))
     assert found.speed is None
     assert "unstable" in found.reason
+
+
+def test_a_pair_that_only_roundoff_makes_complex_is_two_real_motions():
+    """A real eigenvalue that is there twice, as LAPACK may return it."""
+    turn = np.linalg.qr(np.arange(16.0).reshape(4, 4) ** 0.5)[0]
+    whirl = np.array([[1.0, -3.0], [3.0, 1.0]])
+    matrix = turn @ np.block([[40.0 * np.eye(2), np.zeros((2, 2))], [np.zeros((2, 2)), whirl]]) @ turn.T
+    values = np.array([40.0 + 1e-13j, 40.0 - 1e-13j, 1.0 + 3.0j, 1.0 - 3.0j])
+    first, second = turn[:, 0] + 1j * turn[:, 1], turn[:, 2] - 1j * turn[:, 3]
+    found, vectors = parted_pairs(values, np.array([first, first.conj(), second, second.conj()]).T)
+    assert found.imag.tolist() == [0.0, 0.0, 3.0, -3.0]
+    assert_allclose(matrix @ vectors, vectors * found, atol=1e-12)
+    assert np.linalg.matrix_rank(vectors) == 4
 
 
 def test_whirl_of_an_isotropic_rotor_is_there_twice():

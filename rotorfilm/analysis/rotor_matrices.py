@@ -127,6 +127,17 @@ ALONE = 1e-9
 """Relative distance from an exponent of states alone, below which the shaft does not take part in a whirl."""
 
 
+def parted_pairs(values: np.ndarray, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return eigenvalues and eigenvectors of a real matrix, with pairs that roundoff makes complex as real.
+
+    LAPACK may return a real eigenvalue that is there twice as such a pair: the real and the imaginary part
+    of the vector of the pair are its two vectors.
+    """
+    pairs = (values.imag != 0.0) & (np.abs(values.imag) <= ROUNDED * np.abs(values))
+    parts = np.where(values.imag > 0.0, vectors.real, vectors.imag)
+    return np.where(pairs, values.real, values), np.where(pairs, parts, vectors)
+
+
 def joined_whirls(
     model: Condensed, whole: FullRotorModel, frequency: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -162,7 +173,7 @@ def joined_whirls(
     if films:
         matrix[size : 2 * size, 2 * size :] = np.linalg.solve(system.mass, np.hstack(columns))
         matrix[2 * size :, : 2 * size] = np.vstack(felt)
-    values, vectors = np.linalg.eig(matrix)
+    values, vectors = parted_pairs(*np.linalg.eig(matrix))
     swings = (values.imag > 0.0) & (-values.real <= LIGHT * np.abs(values))
     light = swings | ((values.imag == 0.0) & (values.real > GROWING * np.abs(values).max()))
     values, shapes = values[light].astype(complex), vectors[:size, light].astype(complex)
