@@ -365,6 +365,7 @@ def _warm(bearing: Any, load: Array, speed: float) -> Equilibrium:
                 share = left / max(excess(low) - left, left)
                 low, rise = low + rise, 1.1 * share * rise
             low = brentq(excess, low, low + rise, xtol=_KELVIN, rtol=8.9e-16)
+    port.optional(bearing, "require_liquid", low)
     at = _found(films(low), load, speed)  # once more, for what it has to warn of
     return replace(at, temperature=low, iterations=steps, reaction=films(low))
 
@@ -415,7 +416,10 @@ def _why_not(load: Array, target: StaticTarget, best: Any) -> str:
         )
     given = f"got load {load.tolist()} N with |load| = {math.hypot(*load):.6g} N"
     if not math.isfinite(best.norm):
-        return f"speed must let the film carry the load: at speed {speed!r} rad/s it carries none, {given}"
+        why = _no_force(target)
+        return (
+            f"speed must let the film carry the load: at speed {speed!r} rad/s it carries none, {given}{why}"
+        )
     if best.s > LARGEST_S - 1e-12 and best.ratio < 0.0:
         limit = math.exp(best.ratio) * math.hypot(*load)
         return (
@@ -435,6 +439,18 @@ def _why_not(load: Array, target: StaticTarget, best: Any) -> str:
             f"leaves {left * target.size:.3g} N, {given}"
         )
     return _not_found(load, speed, best.imbalance)
+
+
+def _no_force(target: StaticTarget) -> str:
+    """Return why a centered film has no force with its derivatives, for a message; empty where it has one."""
+    try:
+        with _quietly():
+            port.prepared_tangent(target.film)(0.0, 0.0, 0.0, 0.0, target.struct.speed)
+    except UndefinedDerivativeError as error:
+        return f": {error}"
+    except _NO_FORCE:
+        pass
+    return ""
 
 
 def _not_found(load: Array, speed: float, imbalance: float) -> str:

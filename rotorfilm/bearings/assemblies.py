@@ -65,8 +65,8 @@ def require_part(name: str, part: Any) -> None:
     require_terminals(name, part)
     if is_warming(part):
         raise InputError(
-            f"{name} must have a given temperature, or the temperature as a state as that of in_time(), got "
-            f"{part!r}"
+            f"{name} must have a given temperature, or the temperature as a state: {name}=bearing.in_time(), "
+            f"got a {type(part).__name__} whose oil warms"
         )
 
 

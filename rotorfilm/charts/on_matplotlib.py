@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import sys
 import warnings
 from functools import singledispatch
 from pathlib import Path
@@ -21,9 +22,12 @@ NARROW = 50.0
 """Ratio of the ends of a logarithmic axis, below which it is labelled more densely than by decades."""
 
 
-def draw(picture: Picture, given: Any = None) -> list[Axes]:
-    """Draw the panels, on Axes that are given or in a new figure; return its Axes."""
-    shown = _new(picture) if given is None else list(np.atleast_1d(given))
+def draw(picture: Picture, given: Any = None, *, for_pyplot: bool = False) -> list[Axes]:
+    """Draw the panels, on Axes that are given or in a new figure; return its Axes.
+
+    A figure for pyplot is one that `matplotlib.pyplot.show` shows, if the user has imported that.
+    """
+    shown = _new(picture, for_pyplot=for_pyplot) if given is None else list(np.atleast_1d(given))
     for axes, panel in zip(shown, picture.panels, strict=True):
         _draw_panel(axes, panel)
     for axes, panel in zip(shown, picture.panels, strict=True):
@@ -34,10 +38,12 @@ def draw(picture: Picture, given: Any = None) -> list[Axes]:
     return shown
 
 
-def _new(picture: Picture) -> list[Any]:
+def _new(picture: Picture, *, for_pyplot: bool) -> list[Any]:
     columns = min(picture.columns, len(picture.panels))
     rows = -(-len(picture.panels) // columns)
-    figure = new_figure(size=(columns * picture.size[0], rows * picture.size[1]))
+    size = columns * picture.size[0], rows * picture.size[1]
+    pyplot = sys.modules.get("matplotlib.pyplot") if for_pyplot else None
+    figure = new_figure(size=size) if pyplot is None else pyplot.figure(figsize=size, layout="constrained")
     figure.suptitle(picture.title, fontsize=11)
     return [
         figure.add_subplot(rows, columns, k, projection="3d" if panel.z else None)

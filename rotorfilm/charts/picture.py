@@ -263,7 +263,7 @@ class Picture(NamedTuple):
         """Return what `plot()` of a result does: Axes, several of them as a tuple, or a plotly figure."""
         if _known(backend or _CHOSEN[0]) == "plotly" and axes is None:
             return self.to_plotly()
-        drawn = self.draw(axes)
+        drawn = list(_matplotlib().draw(self, axes, for_pyplot=True))
         return drawn[0] if len(drawn) == 1 else tuple(drawn)
 
     def save(self, path: Path | str, *, dpi: int = 130) -> Path:

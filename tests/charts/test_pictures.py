@@ -1,5 +1,6 @@
 """One description of each picture, drawn by matplotlib and by plotly, and the numbers that are in it."""
 
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -54,6 +55,19 @@ def run_up(first=10.0, last=60.0, duration=4.0, samples=16001):
 
 
 RUN = run_up()
+
+
+def test_pyplot_shows_what_a_user_who_imported_it_plots(monkeypatch):
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    pyplot.close("all")
+    RUN.plot("amplitude")
+    assert len(pyplot.get_fignums()) == 1
+    picture_of(RUN, "amplitude").draw()
+    assert len(pyplot.get_fignums()) == 1
+    pyplot.close("all")
+    monkeypatch.delitem(sys.modules, "matplotlib.pyplot")
+    RUN.plot("amplitude")
+    assert pyplot.get_fignums() == []
 
 
 def shaft():

@@ -8,7 +8,17 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from map_potential import potential
 
-from rotorfilm import EquilibriumError, InputError, Pad, ReynoldsFilm, ValidityWarning, as_reaction
+from rotorfilm import (
+    EquilibriumError,
+    FullFilm,
+    InputError,
+    Pad,
+    ReynoldsFilm,
+    SqueezeFilmDamper,
+    ValidityWarning,
+    as_reaction,
+    with_springs,
+)
 from rotorfilm.analysis import coefficient_table, coefficients, equilibrium
 from rotorfilm.bearings.journal import JournalBearing, MapFilm, RotatingArc, ShortFilm, SplittingFilm
 from rotorfilm.bearings.oil import Cooling, Oil
@@ -174,6 +184,18 @@ def test_a_load_far_beyond_capacity_is_refused_after_one_search(linear_film, mon
 def test_no_wedge_without_rotation(bearing):
     with pytest.raises(EquilibriumError, match=r"speed must let the film carry the load.* 0\.0 rad/s.*525"):
         equilibrium(bearing, [0.0, -525.0], 0.0)
+
+
+def test_why_a_damper_in_springs_is_not_at_rest_is_said():
+    """It has no damping matrix there, though its springs carry the load."""
+    caged = with_springs(SqueezeFilmDamper(radius=0.06, length=0.03, clearance=1e-4, viscosity=0.01), 2e7)
+    with pytest.raises(
+        EquilibriumError, match=r"carries none.*must not vanish where a derivative is asked for"
+    ):
+        equilibrium(caged, [0.0, -525.0], 628.0)
+    damper = SqueezeFilmDamper(radius=0.06, length=0.03, clearance=1e-4, viscosity=0.01, extent=FullFilm())
+    at = equilibrium(with_springs(damper, 2e7), [0.0, -525.0], 628.0)
+    assert at.position == pytest.approx([0.0, -525.0 / 2e7], abs=1e-12)
 
 
 def test_force_that_cannot_point_against_the_load(linear_film):

@@ -21,7 +21,16 @@ from ...native.spec import NativeSpec, parameter
 from ..films.mobility import Mobility
 from ..films.turbulence import Turbulence
 from ..reaction import input_vector
-from .oil import DENSITY, Cooling, LaminarFilm, Oil, relative_density, require_absolute, viscosity_table
+from .oil import (
+    DENSITY,
+    HOTTEST_OIL,
+    Cooling,
+    LaminarFilm,
+    Oil,
+    relative_density,
+    require_absolute,
+    viscosity_table,
+)
 
 NOMINAL_TEMPERATURE = 300.0
 """Typical temperature [K]."""
@@ -380,6 +389,10 @@ class WarmBearing(LaminarFilm, SelfHeatedFilm):
             raise InputError(f"oil and cooling must be given for heat, got {self.oil!r} and {self.cooling!r}")
         return self.oil, self.cooling
 
+    def require_liquid(self, temperature: float) -> None:
+        """Raise InputError where a balance is at a temperature [K] at which there is no oil."""
+        require_liquid(temperature)
+
     def coldest(self) -> float:
         """Return the temperature below which the film never gets [K]; raises InputError without cooling."""
         return self.cooled[1].coldest
@@ -579,6 +592,15 @@ def balance_temperature(heat: FilmHeat, oil: Oil, cooling: Cooling) -> float:
     )
 
 
+def require_liquid(temperature: float) -> None:
+    """Raise InputError where the heat of a film balances at a temperature [K] at which there is no oil."""
+    if temperature > HOTTEST_OIL:
+        raise InputError(
+            f"speed must leave the oil below {HOTTEST_OIL:g} K, got one at which it would be hotter "
+            "in the balance of the heat of the film"
+        )
+
+
 def film_temperature(
     heat: Callable[[float], FilmHeat], oil: Oil, cooling: Cooling, *, reshapes: bool
 ) -> float:
@@ -593,6 +615,11 @@ def film_temperature(
     reshapes : bool
         Whether flow and shape of the film depend on its viscosity, as under supply pressure, so that it is
         solved anew at each temperature.
+
+    Raises
+    ------
+    InputError
+        If the film would be hotter than any oil is, at a speed that is too high.
     """
     if not reshapes:
         return balance_temperature(heat(cooling.coldest), oil, cooling)
@@ -605,8 +632,11 @@ def film_temperature(
     if surplus(low) <= 0.0:
         return low
     high = balance_temperature(heat(low), oil, cooling)
-    while surplus(high) > 0.0:
+    while high < HOTTEST_OIL and surplus(high) > 0.0:
         high += high - low
+    if high >= HOTTEST_OIL:
+        high = HOTTEST_OIL
+        require_liquid(low if surplus(high) <= 0.0 else math.inf)
     return float(brentq(surplus, low, high, xtol=_KELVIN))
 
 

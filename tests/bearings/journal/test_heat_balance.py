@@ -19,7 +19,7 @@ from rotorfilm import (
     coefficients,
     equilibrium,
 )
-from rotorfilm.bearings import heat_numbers
+from rotorfilm.bearings import Turbulence, heat_numbers
 from rotorfilm.bearings.oil.heated_bearing import carried_share, effective_flow, flow_slopes
 
 OIL = Oil.iso_vg(100)
@@ -32,6 +32,11 @@ AT = np.array([2e-5, -3e-5]), np.array([1e-4, -2e-3]), SPEED
 def demo(**changes):
     given = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "oil": OIL, "cooling": COOLING}
     return JournalBearing(**{**given, **changes})
+
+
+def test_a_turbulent_film_hotter_than_any_oil_names_the_speed():
+    with pytest.raises(InputError, match=r"speed must leave the oil below 1000 K, got one at which"):
+        equilibrium(demo(turbulence=Turbulence()), LOAD, 3e5)
 
 
 def surplus(bearing, temperature, state):
