@@ -424,7 +424,10 @@ class StaticTiltingPads:
 
     def state(self, position: ArrayLike, speed: float) -> Array:
         """Return the states of the bearing at rest: tilts, places of sprung pivots, rates 0."""
-        pads = self.pad_states(position, speed)
+        return self.state_of(self.pad_states(position, speed))
+
+    def state_of(self, pads: TiltedPads) -> Array:
+        """Return the states of the bearing with pads at rest."""
         sprung = self.bearing.pivot_stiffness is not None
         places = np.concatenate([pads.tilts, pads.pivot_deflections]) if sprung else pads.tilts
         return self.bearing.moving(places)
@@ -569,14 +572,14 @@ class FrozenTiltingPads(StaticTiltingPads):
 
     def matrices(self, position: ArrayLike, speed: float, slopes: Any = None) -> PadMatrices:
         """Return stiffness, damping and mass of journal and pads; see `StaticTiltingPads.matrices`."""
-        _require_rotation(speed)
+        require_rotation(speed)
         tilted = self._tilted(np.asarray(position, dtype=float), speed)
         by_place, by_rate = (slope[tilted.loaded] for slope in tilted.slopes)
         return self._joined(position, speed, tilted.loaded, (by_place, by_rate))
 
     def freed(self, motion: Any) -> FreePads:
         """Return K(s) of the film of a state with its pads free to tilt."""
-        _require_rotation(motion.state.rate)
+        require_rotation(motion.state.rate)
         pressure = motion.state.solution.pressure - motion.film.supply.end_pressure
         loads = self._lines @ np.abs(pressure).max(axis=1)
         return FreePads(self.bearing, replace(motion, parts=self._lines), loads > UNLOADED * loads.max())
@@ -649,7 +652,7 @@ class FrozenTiltingPads(StaticTiltingPads):
         return RestPoint(-load @ normal, slopes, pads, Status.OK, 0)
 
 
-def _require_rotation(speed: float) -> None:
+def require_rotation(speed: float) -> None:
     """Raise UndefinedDerivativeError unless a journal turns, so that the films of pads have derivatives."""
     if not speed:
         raise UndefinedDerivativeError(

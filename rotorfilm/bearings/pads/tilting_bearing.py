@@ -40,6 +40,7 @@ from .pads_at_rest import (
     held_jacobian,
     relative_travel_limit,
     report_pads,
+    require_rotation,
     warn_of_pads,
 )
 
@@ -287,7 +288,19 @@ class TiltingPadBearing(Called, PadBearing):
 
     def rest_linearization(self, position: ArrayLike, speed: float) -> Linearization:
         """Return the derivatives with the tilts of loaded pads as states; see `core.port`."""
-        return self.at_rest().matrices(position, speed).linearization()
+        require_rotation(speed)
+        still = self.at_rest()
+        pads = still.pad_states(position, speed)
+        point = self.kernel.at(
+            np.array([*np.asarray(position), 0.0, 0.0, speed]), still.state_of(pads), slopes=True
+        )
+        report_pads(self, point.status, point.pad, np.asarray(position))
+        assert point.slopes is not None
+        A, B, C, D = point.slopes
+        if pads.unloaded.any():
+            kept = np.resize(~pads.unloaded, len(A))
+            A, B, C = A[kept][:, kept], B[kept], C[:, kept]
+        return Linearization(A, B[:, :4], C[:2], D[:2, :4])
 
     def losses(
         self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool | None = None

@@ -22,6 +22,7 @@ from rotorfilm import (
     whirl_threshold,
 )
 from rotorfilm.bearings.pads.pads_at_rest import directions
+from rotorfilm.core import UndefinedDerivativeError
 
 SPEED = 300.0
 KINDS = {
@@ -100,6 +101,21 @@ def test_rest_is_at_rest_and_modes_are_those_of_the_linearization(smooth, kind):
     np.testing.assert_allclose(
         np.sort_complex(found), np.sort_complex(expected), atol=1e-9 * abs(expected).max()
     )
+
+
+@pytest.mark.filterwarnings("ignore:pads .* are unloaded")
+@pytest.mark.parametrize("speed", [SPEED, -SPEED])
+@pytest.mark.parametrize("kind", KINDS)
+def test_linearization_at_rest_is_that_of_assembled_matrices_without_unloaded_pads(tilting, kind, speed):
+    bearing, place = tilting(4, 0.5, 75.0, 0.0, first=45.0, **KINDS[kind]), np.array([2e-6, -5e-5])
+    matrices = bearing.at_rest().matrices(place, speed)
+    assert matrices.unloaded.sum() == 2
+    found, expected = bearing.rest_linearization(place, speed), matrices.linearization()
+    for one, other, felt in zip(found, expected, (0.0, 0.0, 1.0, 1.0), strict=True):
+        size = max(felt * np.abs(matrices.stiffness).max(), np.abs(other).max())
+        np.testing.assert_allclose(one, other, atol=1e-11 * size, rtol=0.0)
+    with pytest.raises(UndefinedDerivativeError, match="speed must not be 0"):
+        bearing.rest_linearization(place, 0.0)
 
 
 def test_held_pads_have_exact_derivatives_and_no_own_motion(smooth):
