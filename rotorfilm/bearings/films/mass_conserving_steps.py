@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from collections.abc import Callable
 from ctypes import byref, c_double, c_int64
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -153,14 +152,15 @@ class FilmInMotion:
         """What a film and its cavity do to each other at every s; None where openings get a given flow."""
         if self.film.supply.fed.any():
             return None
-        waves = self._turns, self._carrying, self.state.gap.line * self.film.cells.area
-        return cavity_of(self.state, waves, self._slopes, self._force)
+        return cavity_of(self.film, self.state, self._weights)
 
     def _waved(self, cavity: Any, s: complex, blurred: bool = False) -> tuple[Complex, Complex]:
         """Return K(s) and dK/ds from what the waves of the cavity do where it ends."""
         found = np.empty((2, cavity.forces, cavity.freedoms), dtype=complex)
         exponent = (c_double * 2)(s.real, s.imag)
         report_search(loops()["rf_oil_motion"](byref(cavity), exponent, blurred, address(found)))
+        if self.axes is not None:
+            found = self.axes @ found @ self.axes.T
         return self.scale * found[0], self.scale * found[1]
 
     def force(self) -> Array:
@@ -258,68 +258,29 @@ class FilmInMotion:
         return widening
 
 
-def cavity_of(
-    state: ConservedState,
-    waves: tuple[Any, Any, Array],
-    slopes: tuple[Array, Array],
-    force: Callable[[Array], Array],
-) -> Any:
+def cavity_of(film: ConservedFilm, state: ConservedState, weights: Array) -> Any:
     """Return a film and its cavity as `native/conserved/oil_waves.h` has them; None where it goes all around.
 
     Parameters
     ----------
+    film : ConservedFilm
     state : ConservedState
         Steady film without openings that get a given flow.
-    waves : tuple of array_like, shapes that broadcast to (N, M)
-        Twice the angle over which cells extend, twice the speed of their oil, and gap times size.
-    slopes : tuple of ndarray, shape (freedoms, N, M)
-        d outflow of the cells / d place, and / d rate.
-    force : callable
-        Forces from changes of pressure (columns, N, M).
+    weights : ndarray, shape (forces, N, M)
+        Integrals that are asked for.
     """
-    e, shape = state.equations, state.solution.full.shape
-    (lines, along), size = shape, state.solution.full.size
-    film = e.opening == FILM
-    empty, full = film & (state.solution.full == 0), film & (state.solution.full != 0)
-    if np.any(np.all(empty, axis=0)):
+    found, rows, set_cavity = structure("rf_oil_cavity")(), state.solution, loops()["rf_set_oil_cavity"]
+    found.freedoms, found.forces, held = film.freedoms, len(weights), contiguous(weights)
+    given = byref(film.shape), byref(state.gap.struct), byref(state.equations.struct), state.rate
+    fields = *map(address, (rows.full, rows.pressure, rows.theta, held)), byref(found)
+    if set_cavity(*given, *fields, None, None):
         return None
-    step, carried = -1 if e.backward else 1, np.abs(e.wedge).ravel()
-
-    def at(cells: np.ndarray, further: int) -> np.ndarray:
-        return (cells + further * along) % size
-
-    # A line of cells is followed from a cell that is not of the cavity.
-    line, column = np.nonzero(empty)
-    order = np.argsort(step * (line - np.argmin(empty, axis=0)[column]) % lines, kind="stable")
-    line, column = line[order], column[order]
-    cells, filled = line * along + column, np.flatnonzero(full)
-    rank = np.full(size, -1, dtype=np.int32)
-    rank[cells] = np.arange(len(cells))
-    inlets = filled[rank[at(filled, -step)] >= 0]
-    out, into = (-1, 0) if e.backward else (0, -1)
-    columns = len(inlets) + 2 * len(slopes[0])
-    right = np.zeros((columns, size))
-    right[np.arange(len(inlets)), inlets] = carried[at(inlets, into)]
-    right[len(inlets) :] = -np.concatenate(slopes).reshape(-1, size)
-    in_film = np.where(full.ravel(), right, 0.0).reshape(columns, *shape)
-    change = oil_response(e, state.solution.full, np.where(empty, KEEPS, 0.0), in_film).real
-    felt, change = force(np.where(full, change, 0.0)), np.where(full, change, 0.0).reshape(columns, size)
-    around, first, last = e.around.ravel(), column > 0, column < along - 1
-    beside = (
-        (at(cells, -1), around[at(cells, -1)]),
-        (at(cells, 1), around[cells]),
-        (cells - first, first * e.along[line, column]),
-        (cells + last, last * e.along[line, column + 1]),
-    )
-    source = right[:, cells] + sum(conductance * change[:, cell] for cell, conductance in beside)
-    turn, carrying, room = (np.broadcast_to(one, shape)[line, column] for one in waves)
-    return in_c(
-        "rf_oil_cavity",
-        *(len(cells), len(inlets), len(slopes[0]), len(felt)),
-        *(rank[at(one, -step)] for one in (cells, inlets)),
-        *(carried[at(cells, out)] + e.store[line, column], carried[at(cells, into)], room, turn, carrying),
-        *(source.T, felt),
-    )
+    columns = found.inlets + 2 * found.freedoms
+    numbers = np.empty(5 * found.cells + (found.cells + found.forces) * columns)
+    places = np.empty(found.cells + found.inlets, dtype=np.int32)
+    report_search(set_cavity(*given, *fields, address(numbers), address(places)))
+    found.kept = numbers, places
+    return found
 
 
 # What a film that conserves its oil has in SI units, whatever carries it.

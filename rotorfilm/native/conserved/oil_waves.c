@@ -40,6 +40,176 @@ int rf_oil_slow(const rf_oil_shape *shape, const rf_oil_gap *gap, const rf_oil_c
     return status;
 }
 
+#define KEEPS 1e30 /* storage of cells that keep their oil */
+
+static int is_film(const rf_oil_cells *cells, const uint8_t *full, size_t q, int filled)
+{
+    return cells->opening[q] == RF_FILM_CELL && (full[q] != 0) == filled;
+}
+
+static size_t one_line_back(const rf_oil_cells *cells, size_t q)
+{
+    return q < cells->nodes ? q + (cells->lines - 1) * cells->nodes : q - cells->nodes;
+}
+
+static size_t one_line_on(const rf_oil_cells *cells, size_t q)
+{
+    const size_t all = cells->lines * cells->nodes;
+    return q + cells->nodes < all ? q + cells->nodes : q + cells->nodes - all;
+}
+
+static size_t upstream(const rf_oil_cells *cells, size_t q)
+{
+    return cells->backward ? one_line_on(cells, q) : one_line_back(cells, q);
+}
+
+/* What a full gap carries into a cell, and out of it. */
+static double carried_in(const rf_oil_cells *cells, size_t q)
+{
+    return fabs(cells->wedge[cells->backward ? q : one_line_back(cells, q)]);
+}
+
+static double carried_out(const rf_oil_cells *cells, size_t q)
+{
+    return fabs(cells->wedge[cells->backward ? one_line_back(cells, q) : q]);
+}
+
+/* The first line of a column that is not of the cavity; the number of lines where all are. */
+static size_t first_line(const rf_oil_cells *cells, const uint8_t *full, size_t column)
+{
+    size_t i = 0;
+    while (i < cells->lines && is_film(cells, full, i * cells->nodes + column, 0))
+        ++i;
+    return i;
+}
+
+static int size_cavity(const rf_oil_cells *cells, const uint8_t *full, rf_oil_cavity *cavity)
+{
+    cavity->cells = cavity->inlets = 0;
+    for (size_t q = 0; q < cells->lines * cells->nodes; ++q) {
+        cavity->cells += (size_t)is_film(cells, full, q, 0);
+        cavity->inlets += (size_t)(is_film(cells, full, q, 1) && is_film(cells, full, upstream(cells, q), 0));
+    }
+    for (size_t j = 0; j < cells->nodes; ++j)
+        if (first_line(cells, full, j) == cells->lines)
+            return RF_STUCK;
+    return RF_OK;
+}
+
+/* Put the cells of the cavity in the order of the flow: `cell` has their places in the film, and `rank` theirs there. */
+static void put_in_order(const rf_oil_cells *cells, const uint8_t *full, int32_t *cell, int32_t *rank)
+{
+    const size_t lines = cells->lines, along = cells->nodes;
+    int32_t count = 0, *first = rank + lines * along;
+    for (size_t q = 0; q < lines * along; ++q)
+        rank[q] = -1;
+    for (size_t j = 0; j < along; ++j)
+        first[j] = (int32_t)first_line(cells, full, j);
+    for (size_t d = 0; d < lines; ++d)
+        for (size_t j = 0; j < along; ++j) {
+            const size_t i = (size_t)first[j] + (cells->backward ? lines - d : d);
+            const size_t q = (i < lines ? i : i - lines) * along + j;
+            if (!is_film(cells, full, q, 0))
+                continue;
+            cell[count] = (int32_t)q;
+            rank[q] = count++;
+        }
+}
+
+/* Twice the speed with which the walls carry the oil of each cell, the largest where it is the same. */
+static void set_carrying(const rf_oil_shape *shape, const rf_oil_gap *gap, const rf_oil_cells *cells, double *carrying)
+{
+    const size_t all = cells->lines * cells->nodes;
+    double least = HUGE_VAL, most = 0.0;
+    for (size_t q = 0; q < all; ++q) {
+        carrying[q] = 2.0 * fabs(cells->wedge[q]) / (gap->face[q] * shape->width[q % cells->nodes]);
+        least = fmin(least, carrying[q]);
+        most = fmax(most, carrying[q]);
+    }
+    for (size_t q = 0; q < all && most - least <= 1e-12 * most; ++q)
+        carrying[q] = most;
+}
+
+/* What leaves a cell less by the pressure of its neighbors. */
+static double pressed(const rf_oil_cells *cells, size_t q, const double *change)
+{
+    const size_t along = cells->nodes, j = q % along, back = one_line_back(cells, q);
+    const double *faces = cells->along + q / along * (along + 1) + j;
+    return cells->around[back] * change[back] + cells->around[q] * change[one_line_on(cells, q)]
+           + (j > 0 ? faces[0] * change[q - 1] : 0.0) + (j + 1 < along ? faces[1] * change[q + 1] : 0.0);
+}
+
+/* Set columns to 0 outside the full film. */
+static void keep_film(const rf_oil_cells *cells, const uint8_t *full, size_t columns, double *right)
+{
+    const size_t all = cells->lines * cells->nodes;
+    for (size_t k = 0; k < columns; ++k, right += all)
+        for (size_t q = 0; q < all; ++q)
+            right[q] = is_film(cells, full, q, 1) ? right[q] : 0.0;
+}
+
+int rf_set_oil_cavity(const rf_oil_shape *shape, const rf_oil_gap *gap, const rf_oil_cells *cells, double rate,
+                      const uint8_t *full, const double *pressure, const double *theta, const double *weights,
+                      rf_oil_cavity *cavity, double *numbers, int32_t *places)
+{
+    if (!numbers)
+        return size_cavity(cells, full, cavity);
+    const size_t all = cells->lines * cells->nodes, count = cavity->cells, m = cavity->inlets, n = cavity->freedoms;
+    const size_t columns = m + 2 * n;
+    double *right = calloc((columns + 2) * all, sizeof *right), *keeps = right + columns * all, *speed = keeps + all;
+    int32_t *rank = malloc((all + cells->nodes + count) * sizeof *rank), *cell = rank + all + cells->nodes, *up = places, *inlet = places + count;
+    if (!right || !rank) {
+        free(right);
+        free(rank);
+        return RF_MEMORY;
+    }
+    double *own = numbers, *flow = own + count, *room = flow + count, *turn = room + count, *carrying = turn + count;
+    double *source = carrying + count, *felt = source + count * columns;
+    put_in_order(cells, full, cell, rank);
+    set_carrying(shape, gap, cells, speed);
+    int status = rf_oil_slopes(shape, gap, rate, 0.0, pressure, theta, n, right + m * all, right + (m + n) * all);
+    for (size_t q = m * all; q < columns * all; ++q)
+        right[q] = -right[q];
+    for (size_t q = 0, i = 0; q < all; ++q) {
+        const int32_t before = rank[upstream(cells, q)];
+        keeps[q] = rank[q] >= 0 ? KEEPS : 0.0;
+        if (!is_film(cells, full, q, 1) || before < 0)
+            continue;
+        right[i * all + q] = carried_in(cells, q);
+        inlet[i++] = before;
+    }
+    for (size_t c = 0; c < count; ++c) {
+        const size_t q = (size_t)cell[c], i = q / cells->nodes;
+        up[c] = rank[upstream(cells, q)];
+        own[c] = carried_out(cells, q) + cells->store[q];
+        flow[c] = carried_in(cells, q);
+        room[c] = gap->line[q] * rf_cell_area(shape, q);
+        turn[c] = shape->spacing[i] + shape->spacing[i > 0 ? i - 1 : cells->lines - 1];
+        carrying[c] = speed[q];
+        for (size_t k = 0; k < columns; ++k)
+            source[c * columns + k] = right[k * all + q];
+    }
+    keep_film(cells, full, columns, right);
+    if (status == RF_OK)
+        status = rf_oil_response(cells, full, keeps, NULL, NULL, columns, right, NULL);
+    keep_film(cells, full, columns, right);
+    for (size_t c = 0; c < count; ++c)
+        for (size_t k = 0; k < columns; ++k)
+            source[c * columns + k] += pressed(cells, (size_t)cell[c], right + k * all);
+    for (size_t i = 0; i < cavity->forces; ++i)
+        for (size_t k = 0; k < columns; ++k, ++felt) {
+            *felt = 0.0;
+            for (size_t q = 0; q < all; ++q)
+                *felt += 12.0 * weights[i * all + q] * right[k * all + q];
+        }
+    const rf_oil_cavity made = {count, m, n, cavity->forces, up, inlet, own, flow, room, turn, carrying, source,
+                                source + count * columns};
+    *cavity = made;
+    free(right);
+    free(rank);
+    return status;
+}
+
 /* y = inverse (x + flow u), columns of real parts followed by those of imaginary ones. */
 static inline void pass(size_t columns, const double *inverse, double flow, const double *restrict x,
                         const double *restrict u, double *restrict y)

@@ -26,6 +26,13 @@ typedef struct rf_oil_cavity {
     const double *felt;            /* forces x columns: the force of that pressure */
 } rf_oil_cavity;
 
+/* Set the cavity of a steady film with its oil full where `full` tells, whose `freedoms` and `forces` are set: with
+   `numbers` NULL its sizes, else all of it, in 5 cells + (cells + forces) columns numbers and cells + inlets places; the
+   weights of the forces are N x M each. RF_OK, RF_MEMORY, or RF_STUCK where it goes all around the film. */
+RF_EXPORT_LOOP int rf_set_oil_cavity(const rf_oil_shape *shape, const rf_oil_gap *gap, const rf_oil_cells *cells,
+                                     double rate, const uint8_t *full, const double *pressure, const double *theta,
+                                     const double *weights, rf_oil_cavity *cavity, double *numbers, int32_t *places);
+
 /* Set K(s) and dK/ds (forces x freedoms each, complex numbers are pairs). The cavity, whose cells come in the order of the
    flow, stores at the rate s if `blurred`, else so that resolved waves keep their phase. RF_OK, RF_STUCK or RF_MEMORY. */
 RF_EXPORT_LOOP int rf_oil_motion(const rf_oil_cavity *cavity, const double *s, int blurred, double *found);

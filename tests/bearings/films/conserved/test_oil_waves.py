@@ -46,15 +46,25 @@ def test_waves_beside_one_factorization_are_the_solution_of_all_cells(film, spee
         np.testing.assert_allclose(motion.stiffness(s, as_stepped=True), stepped, rtol=1e-9)
 
 
+def test_axes_turn_rows_and_columns():
+    film, speed = next(films())
+    motion = film.dynamic_stiffness(np.array([3e-5, -5e-5]), speed)
+    turn = np.array([[math.cos(0.4), -math.sin(0.4)], [math.sin(0.4), math.cos(0.4)]])
+    turned, direct = (kind(motion.film, motion.state, motion.scale, turn) for kind in (FilmInMotion, Direct))
+    for found, other, own in zip(turned(90j), direct(90j), motion(90j), strict=True):
+        np.testing.assert_allclose(found, other, rtol=0.0, atol=1e-11 * np.abs(other).max())
+        np.testing.assert_allclose(found, turn @ own @ turn.T, rtol=0.0, atol=1e-11 * np.abs(own).max())
+
+
 def test_one_state_is_factorized_once_for_all_exponents(monkeypatch):
     solved = []
 
     def counted(*given):
         solved.append(given)
-        return oil_response(*given)
+        return cavity_of(*given)
 
-    oil_response = mass_conserving_steps.oil_response
-    monkeypatch.setattr(mass_conserving_steps, "oil_response", counted)
+    cavity_of = mass_conserving_steps.cavity_of
+    monkeypatch.setattr(mass_conserving_steps, "cavity_of", counted)
     film, speed = next(films())
     motion = film.dynamic_stiffness(np.array([3e-5, -5e-5]), speed)
     for s in EXPONENTS:
