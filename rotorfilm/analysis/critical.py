@@ -21,7 +21,7 @@ from ..core.results import added_mass
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, freedom_rows, in_planes
 from . import modal_reduction, rotor_matrices
-from .rotor_equilibrium import EquilibriumSearch, RotorEquilibrium, rest
+from .rotor_equilibrium import EquilibriumSearch, RotorEquilibrium
 from .threads import one_blas_thread
 
 REACH = 1.5
@@ -91,11 +91,13 @@ class _Search:
         self.models = modal_reduction.models(rotor, REACH * max(top, 1.0), modal_reduction.FEW)
         self.unproven: list[tuple[float, float]] = []
         self.search = EquilibriumSearch(bearings, warns=False)
+        self._motions: dict[float, rotor_matrices.SecondOrder] = {}
         self.refine()
 
     def refine(self) -> None:
         """Take more shapes."""
         self.model = next(self.models)
+        self._motions.clear()
 
     @property
     def known(self) -> dict[float, RotorEquilibrium]:
@@ -105,6 +107,14 @@ class _Search:
     def at(self, speed: float) -> RotorEquilibrium:
         """Return the equilibrium at a speed."""
         return self.search.at(self.model.structure, float(speed))
+
+    def motions(self, rests: Rests) -> Motions:
+        """Return the equations of synchronous motion about three rests, made once for each."""
+        for at in rests:
+            if at.speed not in self._motions:
+                self._motions[at.speed] = synchronous(self.model.structure, at)
+        low, middle, high = (self._motions[at.speed] for at in rests)
+        return low, middle, high
 
     def over(self, grid: Array) -> list[Crossing]:
         """Return the crossings between the speeds of a rising grid.
@@ -159,7 +169,7 @@ class _Search:
 
     def _over_jump(self, rests: Rests, part: tuple[float, float], halvings: int) -> list[Crossing] | None:
         """Return the crossings on a part of the straight way over a jump; None if that is not proven."""
-        leap = Leap(self.model, rests, part)
+        leap = Leap(self.model, rests, self.motions(rests), part)
         told = leap.candidates()
         if told is not None and (found := leap.passing(told[0])) is not None:
             if found and told[1] > modal_reduction.TOLERANCE:
@@ -182,10 +192,9 @@ class _Search:
 
     def _keeps(self, one: Crossing, rests: Rests) -> bool:
         """Return whether a whirl is nearly the same before and after the jump within which it crosses."""
-        sides = (synchronous(self.model.structure, at) for at in (rests[0], rests[2]))
         return all(
             np.abs(np.linalg.eigvals(side.state_matrix()) - one.value).min() <= SAME * abs(one.value)
-            for side in sides
+            for side in self.motions(rests)[::2]
         )
 
     def _leave(self, low: float, high: float) -> None:
@@ -230,7 +239,8 @@ class _Search:
 
     def _proven(self, low: float, middle: float, high: float) -> list[Crossing] | None:
         """Return the crossings of a step; None if more steps must tell."""
-        span = SpannedModes(self.model, self._rests(low, middle, high))
+        rests = self._rests(low, middle, high)
+        span = SpannedModes(self.model, rests, self.motions(rests))
         told = span.candidates()
         if told is None:
             return None
@@ -264,7 +274,7 @@ class _Search:
         limits = span.middle - span.half, span.middle + span.half
         forward = -1.0 if span.rests[1].speed < 0.0 else 1.0
         for count in range(_STEPS):
-            at = rest(self.model.structure, self.bearings, forward * turn, span.rests)
+            at = self.at(forward * turn)
             system = rotor_matrices.motion_near(structure, at, turn)(value)
             before, shift = value, value * (1.0 + 1e-13)
             value, right, left = rotor_matrices.inverse_steps(system, shift, right, left, 1 if count else 2)[
@@ -309,6 +319,7 @@ BENT = 2.0
 """How much more K and C of films may bend within a step than the parabola through its ends and middle."""
 
 Rests = tuple[RotorEquilibrium, RotorEquilibrium, RotorEquilibrium]
+Motions = tuple[rotor_matrices.SecondOrder, rotor_matrices.SecondOrder, rotor_matrices.SecondOrder]
 
 
 class Crossing(NamedTuple):
@@ -338,10 +349,13 @@ class SpannedModes:
     model : Condensed
     rests : tuple of three RotorEquilibrium
         Rests at the ends and in the middle, by rising |speed|.
+    motions : tuple of three SecondOrder
+        Equations of synchronous motion about them.
     """
 
     model: modal_reduction.Condensed
     rests: Rests
+    motions: Motions
 
     @property
     def middle(self) -> float:
@@ -356,7 +370,7 @@ class SpannedModes:
     @cached_property
     def systems(self) -> tuple[rotor_matrices.SecondOrder, ...]:
         """Equations of small motion at the three speeds, as synchronous motion has them, of one mass."""
-        return of_one_mass([synchronous(self.model.structure, at) for at in self.rests])
+        return of_one_mass(self.motions)
 
     @cached_property
     def modes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -470,6 +484,7 @@ class Leap(SpannedModes):
     model : Condensed
     rests : tuple of three RotorEquilibrium
         Rests as of `SpannedModes`: the jump is between the ends.
+    motions : tuple of three SecondOrder
     part : (float, float) [1]
         Shares of the way at which the part begins and ends.
     """
@@ -490,7 +505,7 @@ class Leap(SpannedModes):
     @cached_property
     def systems(self) -> tuple[rotor_matrices.SecondOrder, ...]:
         """Equations of small motion at the ends and in the middle of the part, of synchronous motion."""
-        first, last = (synchronous(self.model.structure, at) for at in (self.rests[0], self.rests[2]))
+        first, _, last = self.motions
         shares = self.part[0], 0.5 * (self.part[0] + self.part[1]), self.part[1]
         return of_one_mass(
             [

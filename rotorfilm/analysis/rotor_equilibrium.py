@@ -465,7 +465,7 @@ class RestEquations:
 
     def solve(self, q: Array, p: Array, s: float, *, downhill: bool = False) -> tuple[Array, Array]:
         """Return (q, p) by Newton's method, its steps kept within the clearances or such as lower energy."""
-        n = len(q)
+        n, left, slopes = len(q), math.inf, np.zeros(0)
         for count in range(_NEWTON_STEPS):
             modal_reduction.tally("newton_steps")
             pressed = self.forces(p)
@@ -473,7 +473,10 @@ class RestEquations:
             force_limit, misfit_limit = self.tolerances(q, p, s, pressed)
             if np.all(np.abs(forces) <= force_limit) and np.all(np.abs(misfit) <= misfit_limit):
                 return q, p
-            slopes = self.slopes(p)
+            before, left = left, float(np.abs(forces).max())
+            # Else the slopes of the last step lead there too: they leave the same part once more.
+            if not count or left * left > TOLERANCE * self.size * before:
+                slopes = self.slopes(p)
             matrix = np.block(
                 [[self.stiffness, -self.journals.T @ slopes], [self.journals, -s * np.eye(len(p))]]
             )

@@ -35,7 +35,7 @@ from rotorfilm.analysis import (
 )
 from rotorfilm.analysis.critical import Changing, branches_on_line, require_all_undamped
 from rotorfilm.analysis.modal_reduction import exact_structure, models, negative_count
-from rotorfilm.analysis.rotor_equilibrium import rest
+from rotorfilm.analysis.rotor_equilibrium import RestEquations, rest
 from rotorfilm.analysis.rotor_matrices import FullRotorModel, LeftOut, seen_rows, small_motion
 from rotorfilm.core import UnloadedPadWarning
 from rotorfilm.rotors import (
@@ -374,6 +374,26 @@ def test_critical_speeds_on_rigid_bearings_are_the_limit_of_stiff_ones(count):
 
 def test_equilibria_count_their_steps():
     assert 1 <= rotor_equilibrium(long_rotor(6), FILMS, 150.0).work["newton_steps"] <= 12
+
+
+def test_each_speed_is_searched_once_and_slopes_are_kept_near_an_equilibrium(monkeypatch):
+    """Newton's method evaluates the derivatives of the films in some of its steps only."""
+    steps, slopes, found = [], [], []
+    equations, search = sys.modules["rotorfilm.analysis.rotor_equilibrium"], RestEquations.slopes
+
+    def solved(system, *given, **options):
+        steps.append(system.speed)
+        return solve(system, *given, **options)
+
+    solve, result = RestEquations.solve, equations._result
+    monkeypatch.setattr(RestEquations, "solve", solved)
+    monkeypatch.setattr(RestEquations, "slopes", lambda *given: slopes.append(given) or search(*given))
+    monkeypatch.setattr(equations, "_result", lambda *given: found.append(result(*given)) or found[-1])
+    with modal_reduction.counted("newton_steps") as work:
+        critical_speeds(long_rotor(6), FILMS, np.linspace(20.0, 700.0, 15))
+    assert len(steps) == len(set(steps)) > 40
+    assert len(slopes) < 0.5 * work["newton_steps"]
+    assert max(at.residual for at in found) <= 1e-9
 
 
 def two_disks(count):
