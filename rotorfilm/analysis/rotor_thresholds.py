@@ -18,6 +18,7 @@ from ..core.port import Bearings
 from ..core.progress import Report, silent
 from ..core.readable import Readable
 from ..rotors import FlexibleRotor
+from ..rotors.structure import Structure
 from . import modal_reduction
 from .coefficients import GROWTH_ROUNDOFF
 from .frequency_dependent import require_all_growing
@@ -194,20 +195,56 @@ def first_growing(rotor: FlexibleRotor, bearings: Bearings, speeds: Array) -> tu
     """
     rotor, equilibria = modal_reduction.whirling(rotor, bearings), EquilibriumSearch(bearings)
 
-    def growing(speed: float) -> NDArray[np.complex128]:
+    def growing(speed: float) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
         motions = motions_at(rotor, equilibria, speed)
         values = motions.eigenvalues
-        return values[motions.grows & (values.real > GROWTH_ROUNDOFF * (np.abs(values) + speed))]
+        chosen = motions.grows & (values.real > GROWTH_ROUNDOFF * (np.abs(values) + speed))
+        return values[chosen], motions.shapes[:, chosen]
 
-    found = growing(float(speeds[-1]))
+    found, shapes = growing(float(speeds[-1]))
     if not found.size:
         return None
-    low, high = -1, len(speeds) - 1
+    low, high, most = -1, len(speeds) - 1, int(np.argmax(found.real))
+    onset = _onset_of(rotor, equilibria, speeds, complex(found[most]), shapes[:, most])
     while high - low > 1:
-        middle = (low + high) // 2
-        one = growing(float(speeds[middle]))
+        told = [k for k in (onset - 1, onset) if low < k < high]
+        middle = told[0] if told else (low + high) // 2
+        one, _ = growing(float(speeds[middle]))
         low, high, found = (low, middle, one) if one.size else (middle, high, found)
     return float(speeds[high]), complex(found[np.argmax(found.real)])
+
+
+def _onset_of(
+    rotor: FlexibleRotor, equilibria: EquilibriumSearch, speeds: Array, value: complex, shape: np.ndarray
+) -> int:
+    """Return the place of the first speed at which a whirl grows that does at the last, if it is followed."""
+    whole, low, high = modal_reduction.exact_structure(rotor), -1, len(speeds) - 1
+    while high - low > 1 and oscillates(np.array(value)):
+        middle = (low + high) // 2
+        try:
+            s, way = _followed_to(rotor, whole, equilibria, float(speeds[middle]), value, shape)
+        except (ConvergenceError, EquilibriumError):
+            break
+        if s.real > GROWTH_ROUNDOFF * (abs(s) + speeds[middle]):
+            high, value, shape = middle, s, way
+        else:
+            low = middle
+    return high
+
+
+def _followed_to(
+    rotor: FlexibleRotor,
+    whole: Structure,
+    equilibria: EquilibriumSearch,
+    speed: float,
+    value: complex,
+    shape: np.ndarray,
+) -> tuple[complex, np.ndarray]:
+    """Return the whirl at a speed next to one at another, and its shape, in all coordinates of a rotor."""
+    model = next(modal_reduction.models(rotor, modal_reduction.usual_frequency(rotor, speed)))
+    bands = bands_of(whole, abs(speed))
+    frequency = next(one for one, below, above in bands if below <= value.imag < above)
+    return whirl_near(whole, equilibria.at(model.structure, speed), frequency, value, shape)[:2]
 
 
 class _Growth(NamedTuple):
@@ -279,14 +316,18 @@ class _Stability(NamedTuple):
     def _change(self, k: int, low: _Growth, high: _Growth) -> StabilityChange:
         """Return where growth number k vanishes between two speeds.
 
-        A search of the sorted growths comes near it. From the growing side its motion is then followed to
-        where its growth is 0. Whirl that nothing damps or drives has roundoff of either sign, so the search
-        is for a growth above it; where no motion is followed it goes on, and the line through 0 is drawn.
+        From the growing side its motion is followed to where its growth is 0. If the sorted growths do not
+        change sign beside that speed, a search of them comes near the right one, and its motion is followed
+        from there. Whirl that nothing damps or drives has roundoff of either sign, so the search is for a
+        growth above it; where no motion is followed it goes on, and the line through 0 is drawn.
         """
         seen = {one.motions.speed: one for one in (low, high)}
-        root = self._root(k, seen, NEARLY)
-        near = min((w for w in seen if seen[w].rate(k) > GROWTH_ROUNDOFF), key=lambda w: abs(w - root))
-        found = self._followed(k, seen[near], root) or self._on_line(k, seen)
+        found = self._followed_far(k, low, high)
+        if found is None:
+            root = self._root(k, seen, NEARLY)
+            near = min((w for w in seen if seen[w].rate(k) > GROWTH_ROUNDOFF), key=lambda w: abs(w - root))
+            around = sorted((root - _AWAY * abs(root), root + _AWAY * abs(root)))
+            found = self._followed(k, seen[near], 2.0 * root - near, around) or self._on_line(k, seen)
         speed, value, shape, slope = found
         size = _size(value, speed)
         change = value_error(self.rotor, self.equilibria, speed, value)
@@ -311,34 +352,45 @@ class _Stability(NamedTuple):
         low, high = list(seen)[:2]
         return float(brentq(excess, low, high, rtol=rtol))
 
-    def _followed(self, k: int, start: _Growth, root: float) -> Vanishing | None:
-        """Return where the motion that is growth number k near a root has none, by secants; None if nowhere.
+    def _followed_far(self, k: int, low: _Growth, high: _Growth) -> Vanishing | None:
+        """Return the same where the motion leads there all the way, and growth number k vanishes there."""
+        ends = sorted((low, high), key=lambda one: one.motions.speed)
+        speeds = [one.motions.speed for one in ends]
+        start = max(ends, key=lambda one: one.rate(k))
+        found = self._followed(k, start, 0.5 * sum(speeds), speeds)
+        if found is None:
+            return None
+        beside = sorted(found[0] * (1.0 + way * NEARLY) for way in (-1.0, 1.0))
+        if not speeds[0] < beside[0] <= beside[1] < speeds[1]:
+            return None
+        growing = [self.growth(speed).rate(k) > GROWTH_ROUNDOFF for speed in beside]
+        return found if growing == [start is ends[0], start is ends[1]] else None
+
+    def _followed(self, k: int, start: _Growth, onward: float, ends: list[float]) -> Vanishing | None:
+        """Return where the motion that is growth number k has none, by secants between ends; None if nowhere.
 
         Its eigenpair is that of all coordinates, by inverse iteration. That of divergence has none at 0.
         """
         whole, place = modal_reduction.exact_structure(self.rotor), start.places[k]
-        model = next(modal_reduction.models(self.rotor, modal_reduction.usual_frequency(self.rotor, root)))
         value, shape = complex(start.motions.eigenvalues[place]), start.motions.shapes[:, place]
         points: list[tuple[float, float]] = []
         speed = start.motions.speed
         for _ in range(_SECANTS if oscillates(np.array(value)) else 0):
             try:
-                at = self.equilibria.at(model.structure, speed)
-                bands = bands_of(whole, abs(speed))
-                frequency = next(one for one, below, above in bands if below <= value.imag < above)
-                value, shape, _ = whirl_near(whole, at, frequency, value, shape)
+                value, shape = _followed_to(self.rotor, whole, self.equilibria, speed, value, shape)
             except (ConvergenceError, EquilibriumError):
                 return None
             points.append((speed, value.real / _size(value, speed)))
             if len(points) == 1:
-                speed += 2.0 * (root - speed) or NEARLY * speed
+                speed = onward if onward != speed else speed * (1.0 + NEARLY)
                 continue
             (last, before), (now, rate) = points[-2:]
             slope = (rate - before) / (now - last)
-            moved = abs(now - rate / slope - root)
-            if not abs(slope) * abs(root) > GROWTH_ROUNDOFF or moved > _AWAY * abs(root):
+            if not abs(slope) * abs(now) > GROWTH_ROUNDOFF:
                 return None
             speed = now - rate / slope
+            if not ends[0] <= speed <= ends[1]:
+                return None
             if abs(speed - now) <= _SETTLED * abs(speed):
                 return speed, value, shape, abs(slope)
         return None

@@ -30,6 +30,7 @@ from rotorfilm.analysis import (
     rotor_modes,
     rotor_system,
     rotor_threshold,
+    rotor_thresholds as thresholds,
     stability_changes,
     unbalance_response,
 )
@@ -290,9 +291,27 @@ def test_a_threshold_tells_the_error_of_its_speed():
     speeds = np.linspace(150.0, 300.0, 4)
     found = rotor_threshold(long_rotor(30), FILMS, speeds)
     assert 0.0 < found.speed_error < 1e-4
+    assert found.work["eigenproblems"] <= len(speeds) + 3, (
+        "the motion is followed, and looked at on both sides"
+    )
     exact = stability_changes(long_rotor(12), FILMS, speeds)[0]
     assert exact.speed_error == 0.0
     assert abs(found.speed - exact.speed) < 10.0 * found.speed_error + 1e-6 * exact.speed
+
+
+def test_the_first_of_many_speeds_at_which_a_motion_grows_takes_few_looks(monkeypatch):
+    """The speed is that of a look at each; the motion that grows at the top tells where to look."""
+    rotor, speeds = long_rotor(30), np.linspace(150.0, 300.0, 31)
+    growing = [rotor_modes(rotor, FILMS, speed).grows.any() for speed in speeds.tolist()]
+    looks, motions_at = [], thresholds.motions_at
+    monkeypatch.setattr(thresholds, "motions_at", lambda *given: looks.append(given) or motions_at(*given))
+    speed, value = thresholds.first_growing(rotor, FILMS, speeds)
+    assert speed == speeds[growing.index(True)]
+    assert value.real > 0.0
+    assert len(looks) == 3
+    monkeypatch.setattr(thresholds, "_onset_of", lambda *given: len(speeds) - 1)
+    assert_allclose(thresholds.first_growing(rotor, FILMS, speeds), (speed, value), rtol=1e-10)
+    assert len(looks) > 8
 
 
 def test_analyses_count_their_work():
