@@ -330,6 +330,10 @@ class RestEquations:
         self.stiffness[still] = self.stiffness[:, still] = 0.0
         self.stiffness[still, still] = self.size / 1e-4
         self.terms = np.abs(self.stiffness), np.abs(self.journals)
+        self.lengths = np.repeat([min(port.clearance_of(one), 1e-4) for one in self.given], self.sizes)
+        n, m = len(self.weight), len(self.journals)
+        self.matrix = np.zeros((n + m, n + m))
+        self.matrix[:n, :n], self.matrix[n:, :n] = self.stiffness, self.journals
         self.pressed: tuple[Array, Array] | None = None
 
     def split(self, values: Array) -> list[Array]:
@@ -452,7 +456,6 @@ class RestEquations:
 
     def tolerances(self, q: Array, p: Array, s: float, pressed: Array) -> tuple[Array, Array]:
         """Return the residuals at which the rotor rests: TOLERANCE, and roundoff of what cancels in them."""
-        lengths = np.repeat([min(port.clearance_of(b), 1e-4) for b in self.bearings], self.sizes)
         stiffness, journals = self.terms
         forces = np.abs(self.weight) + stiffness @ np.abs(q) + journals.T @ np.abs(pressed)
         misfit = journals @ np.abs(q) + s * np.abs(p)
@@ -461,11 +464,11 @@ class RestEquations:
         if self.weight.any():
             # Where bearings hardly hold the rotor, it moves so far that roundoff is more than its weight.
             allowed = np.minimum(allowed, port.MOST_LEFT * self.size)
-        return allowed, TOLERANCE * lengths + roundoff * misfit
+        return allowed, TOLERANCE * self.lengths + roundoff * misfit
 
     def solve(self, q: Array, p: Array, s: float, *, downhill: bool = False) -> tuple[Array, Array]:
         """Return (q, p) by Newton's method, its steps kept within the clearances or such as lower energy."""
-        n, left, slopes = len(q), math.inf, np.zeros(0)
+        n, left = len(q), math.inf
         for count in range(_NEWTON_STEPS):
             modal_reduction.tally("newton_steps")
             pressed = self.forces(p)
@@ -476,12 +479,10 @@ class RestEquations:
             before, left = left, float(np.abs(forces).max())
             # Else the slopes of the last step lead there too: they leave the same part once more.
             if not count or left * left > TOLERANCE * self.size * before:
-                slopes = self.slopes(p)
-            matrix = np.block(
-                [[self.stiffness, -self.journals.T @ slopes], [self.journals, -s * np.eye(len(p))]]
-            )
+                self.matrix[:n, n:] = -self.journals.T @ self.slopes(p)
+            self.matrix[n:, n:] = -s * np.eye(len(p))
             try:
-                step = np.linalg.solve(matrix, -np.concatenate([forces, misfit]))
+                step = np.linalg.solve(self.matrix, -np.concatenate([forces, misfit]))
             except np.linalg.LinAlgError:
                 raise self.free() from None
             share = self._downhill(q, p, step, s) if downhill else self._within(p, step[n:])

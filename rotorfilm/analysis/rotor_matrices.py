@@ -219,7 +219,7 @@ def motion_near(structure: Structure, at: RotorEquilibrium, frequency: float) ->
 
     def near(s: Any) -> SecondOrder:
         found = (stiffnesses_and_slopes(motion, s) for motion in motions)
-        K, slope = (in_blocks(parts) for parts in zip(*found, strict=True))
+        K, slope = map(in_blocks, zip(*found, strict=True))
         damping = system.damping + _at_journal(structure, rows, slope)
         still = K - np.asarray(s)[..., None, None] * slope
         return SecondOrder(system.mass, damping, system.stiffness + _at_journal(structure, rows, still))
@@ -248,6 +248,8 @@ def _as_one(motions: Sequence[Any]) -> Sequence[Any]:
 
 def in_blocks(parts: Sequence[np.ndarray]) -> np.ndarray:
     """Return square matrices (..., n, n) one after the other on the diagonal of one (..., N, N)."""
+    if len(parts) == 1:
+        return parts[0]
     ends = np.cumsum([0, *(part.shape[-1] for part in parts)])
     ahead = np.broadcast_shapes(*(part.shape[:-2] for part in parts))
     found = np.zeros((*ahead, ends[-1], ends[-1]), dtype=np.result_type(float, *parts))
@@ -520,9 +522,13 @@ class FullRotorModel:
 
     def slope(self, values: Any, motion: np.ndarray) -> np.ndarray:
         """Return L'(s) x, shape (N, m)."""
-        seen = self.rows @ motion
-        film = self.rows.T @ (_each(self.films[1], seen) + _each(self.films[2], seen) * (2.0 * values))
-        return np.asarray((self.shaft.mass @ motion) * (2.0 * values) + self.shaft.damping @ motion + film)
+        heavy = self.rows.T @ _each(self.films[2], self.rows @ motion) + self.shaft.mass @ motion
+        return np.asarray(heavy * (2.0 * values) + self.damped(motion))
+
+    def damped(self, motion: np.ndarray) -> np.ndarray:
+        """Return L'(0) x, shape (N, m)."""
+        film = self.rows.T @ _each(self.films[1], self.rows @ motion)
+        return np.asarray(self.shaft.damping @ motion + film)
 
 
 def _in_kinds(films: Sequence[Coefficients], near: np.ndarray | None = None) -> list[np.ndarray]:
@@ -596,7 +602,7 @@ def holding(whole: FullRotorModel, values: np.ndarray, shapes: np.ndarray) -> Ar
     """Return what holds motions (N, m), over the stiffness forces that cancel in them [1]; 1 without such."""
     size = np.abs(values)
     inertia = np.linalg.norm(whole.shaft.mass @ shapes, axis=0)
-    damping = np.linalg.norm(whole.slope(0.0, shapes), axis=0)
+    damping = np.linalg.norm(whole.damped(shapes), axis=0)
     held = np.linalg.norm(whole.held(np.abs(shapes)), axis=0)
     holds = size * (size * inertia + damping)
     return np.asarray(np.divide(holds, held, out=np.sign(holds), where=held > 0.0))

@@ -22,7 +22,7 @@ from ..rotors.structure import Structure
 from . import modal_reduction
 from .coefficients import GROWTH_ROUNDOFF
 from .frequency_dependent import require_all_growing
-from .rotor_equilibrium import EquilibriumSearch
+from .rotor_equilibrium import EquilibriumSearch, RotorEquilibrium
 from .rotor_matrices import oscillates, value_error, whirl_near
 from .rotor_modes import RotorModes, bands_of, directions, motions_at, speeds_in_turn
 from .threads import one_blas_thread
@@ -218,33 +218,30 @@ def _onset_of(
     rotor: FlexibleRotor, equilibria: EquilibriumSearch, speeds: Array, value: complex, shape: np.ndarray
 ) -> int:
     """Return the place of the first speed at which a whirl grows that does at the last, if it is followed."""
-    whole, low, high = modal_reduction.exact_structure(rotor), -1, len(speeds) - 1
+    low, high = -1, len(speeds) - 1
+    model = next(modal_reduction.models(rotor, modal_reduction.usual_frequency(rotor, float(speeds[-1]))))
+    way = model.seen(model.whole.mass @ shape[:, None])[:, 0]
     while high - low > 1 and oscillates(np.array(value)):
         middle = (low + high) // 2
         try:
-            s, way = _followed_to(rotor, whole, equilibria, float(speeds[middle]), value, shape)
+            at = equilibria.at(model.structure, float(speeds[middle]))
+            s, moved = _followed_to(model.structure, at, value, way)
         except (ConvergenceError, EquilibriumError):
             break
-        if s.real > GROWTH_ROUNDOFF * (abs(s) + speeds[middle]):
-            high, value, shape = middle, s, way
+        if s.real > GROWTH_ROUNDOFF * (abs(s) + at.speed):
+            high, value, way = middle, s, moved
         else:
             low = middle
     return high
 
 
 def _followed_to(
-    rotor: FlexibleRotor,
-    whole: Structure,
-    equilibria: EquilibriumSearch,
-    speed: float,
-    value: complex,
-    shape: np.ndarray,
+    structure: Structure, at: RotorEquilibrium, value: complex, shape: np.ndarray
 ) -> tuple[complex, np.ndarray]:
-    """Return the whirl at a speed next to one at another, and its shape, in all coordinates of a rotor."""
-    model = next(modal_reduction.models(rotor, modal_reduction.usual_frequency(rotor, speed)))
-    bands = bands_of(whole, abs(speed))
+    """Return the whirl about an equilibrium next to one at another speed, and its shape."""
+    bands = bands_of(structure, abs(at.speed))
     frequency = next(one for one, below, above in bands if below <= value.imag < above)
-    return whirl_near(whole, equilibria.at(model.structure, speed), frequency, value, shape)[:2]
+    return whirl_near(structure, at, frequency, value, shape)[:2]
 
 
 class _Growth(NamedTuple):
@@ -373,11 +370,13 @@ class _Stability(NamedTuple):
         """
         whole, place = modal_reduction.exact_structure(self.rotor), start.places[k]
         value, shape = complex(start.motions.eigenvalues[place]), start.motions.shapes[:, place]
+        model = next(modal_reduction.models(self.rotor, modal_reduction.usual_frequency(self.rotor, onward)))
         points: list[tuple[float, float]] = []
         speed = start.motions.speed
         for _ in range(_SECANTS if oscillates(np.array(value)) else 0):
             try:
-                value, shape = _followed_to(self.rotor, whole, self.equilibria, speed, value, shape)
+                at = self.equilibria.at(model.structure, speed)
+                value, shape = _followed_to(whole, at, value, shape)
             except (ConvergenceError, EquilibriumError):
                 return None
             points.append((speed, value.real / _size(value, speed)))
