@@ -473,10 +473,12 @@ class RestEquations:
             modal_reduction.tally("newton_steps")
             pressed = self.forces(p)
             forces, misfit = self.residual(q, p, s, pressed)
-            force_limit, misfit_limit = self.tolerances(q, p, s, pressed)
-            if np.all(np.abs(forces) <= force_limit) and np.all(np.abs(misfit) <= misfit_limit):
-                return q, p
             before, left = left, float(np.abs(forces).max())
+            near = left <= port.MOST_LEFT * self.size  # beyond it no weight is at rest
+            if near or not self.weight.any():
+                force_limit, misfit_limit = self.tolerances(q, p, s, pressed)
+                if np.all(np.abs(forces) <= force_limit) and np.all(np.abs(misfit) <= misfit_limit):
+                    return q, p
             # Else the slopes of the last step lead there too: they leave the same part once more.
             if not count or left * left > TOLERANCE * self.size * before:
                 self.matrix[:n, n:] = -self.journals.T @ self.slopes(p)
@@ -490,8 +492,7 @@ class RestEquations:
             if count >= FREE_STEPS and not downhill:
                 nearer = self._nearer(q, p, step, s, share)
                 pads = any(quasi_static(one) is not one for one in self.bearings)
-                balanced = pads and np.abs(forces).max() <= port.MOST_LEFT * self.size
-                if not nearer and balanced and np.all(np.abs(misfit) <= misfit_limit):
+                if not nearer and pads and near and np.all(np.abs(misfit) <= misfit_limit):
                     return q, p  # at the onset of a pad's film, a last digit of p is more than is left
                 share = nearer or share
             q, p = q + share * step[:n], p + share * step[n:]

@@ -181,8 +181,9 @@ class TiltingPadBearing(Called, PadBearing):
         It is zero or negative where no tilt leaves a film. For pivots on springs it is larger by the
         assembled clearance.
         """
-        along = np.tensordot(directions(self.pivots)[:, :, 0], require_vector("position", position), 1)
-        return np.asarray(self.bore_clearance * self._yielding - along.max(axis=0))
+        place = require_vector("position", position)
+        along = directions(self.pivots)[:, :, 0] @ place.reshape(2, -1)
+        return np.asarray(self.bore_clearance * self._yielding - along.max(axis=0).reshape(place.shape[1:]))
 
     def require_film(self, position: Array) -> None:
         """Raise FilmContactError, which names the pad, if a journal at (2,) [m] touches it at any tilt."""
