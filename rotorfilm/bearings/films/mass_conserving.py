@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from ctypes import byref
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 from weakref import WeakKeyDictionary
@@ -422,7 +422,8 @@ ROUNDOFF = 1e-12
 """Of the pressure at the ends of the bearing, that of the film beside them: nothing flows there."""
 
 
-class Gap(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Gap:
     """The gap of a film over the clearance, on N lines of M cells, or its slope by a freedom of the journal.
 
     Attributes
@@ -438,12 +439,12 @@ class Gap(NamedTuple):
     line: Array
     face: Array
     side: Array
-    beside: Array = np.zeros((2, 1, 1))
+    beside: Array = field(default_factory=lambda: np.zeros((2, 1, 1)))
 
-    @property
+    @cached_property
     def struct(self) -> Any:
-        """What C reads."""
-        return in_c("rf_oil_gap", *self[:3])
+        """What C reads; it lasts as long as this."""
+        return in_c("rf_oil_gap", self.line, self.face, self.side)
 
 
 class Supply(NamedTuple):
