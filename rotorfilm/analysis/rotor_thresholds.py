@@ -133,11 +133,11 @@ def rotor_threshold(
     search = _Stability(modal_reduction.whirling(rotor, bearings), EquilibriumSearch(bearings))
     grid = speeds_in_turn(speeds)
     with modal_reduction.counted(*modal_reduction.COUNTS) as work:
-        unstable = search.growing(float(grid[0])) > 0
-        found = None if unstable else next(search.changes(grid, report), None)
+        first = search.counted(float(grid[0]))
+        found = None if first.growing else next(search.changes(grid, report, first), None)
     report(1.0, "")
     if found is None:
-        reason = "unstable at the first speed given" if unstable else "stable at every speed given"
+        reason = "unstable at the first speed given" if first.growing else "stable at every speed given"
         return RotorThreshold(reason=reason, work=dict(work))
     return RotorThreshold(
         speed=found.speed,
@@ -276,23 +276,21 @@ class _Stability(NamedTuple):
         places = np.repeat(np.argsort(-rates), np.where(whirls, 2, 1)[np.argsort(-rates)])
         return _Growth(rates[places], places, motions)
 
-    def growing(self, speed: float) -> int:
-        """Return how many eigenvalues grow at a speed."""
-        return self._counted(speed).growing
-
-    def _counted(self, speed: float) -> _Growth:
+    def counted(self, speed: float) -> _Growth:
         """Return what grows at a speed, with a proof on frequency-dependent films that it is all."""
         found = self.growth(speed)
         require_all_growing(self.rotor, self.equilibria, speed, found.motions.eigenvalues, found.growing)
         return found
 
-    def changes(self, speeds: Array, report: Report) -> Iterator[StabilityChange]:
-        """Yield the changes of a grid of speeds in its order."""
+    def changes(
+        self, speeds: Array, report: Report, first: _Growth | None = None
+    ) -> Iterator[StabilityChange]:
+        """Yield the changes of a grid of speeds in its order; what grows at the first may be known."""
 
         def looked_at() -> Iterator[_Growth]:
             for done, speed in enumerate(speeds.tolist()):
                 report(done / len(speeds), f"what grows at {speed:.4g} rad/s")
-                yield self._counted(speed)
+                yield self.counted(speed) if done or first is None else first
 
         for low, high in pairwise(looked_at()):
             yield from self._between(low, high)

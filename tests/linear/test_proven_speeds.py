@@ -294,6 +294,8 @@ def test_a_threshold_tells_the_error_of_its_speed():
     assert found.work["eigenproblems"] <= len(speeds) + 3, (
         "the motion is followed, and looked at on both sides"
     )
+    stable = rotor_threshold(long_rotor(30), FILMS, speeds[:2])
+    assert (stable.speed, stable.work["eigenproblems"]) == (None, 2), "one look at each speed"
     exact = stability_changes(long_rotor(12), FILMS, speeds)[0]
     assert exact.speed_error == 0.0
     assert abs(found.speed - exact.speed) < 10.0 * found.speed_error + 1e-6 * exact.speed
