@@ -72,7 +72,8 @@ def _draw_panel(axes: Any, panel: PicturePanel) -> None:
     if panel.right:
         right.set(ylabel=panel.right, ylim=panel.right_limits)
     if panel.equal:
-        axes.set(aspect="equal", adjustable="datalim")
+        # Limits that are given stay; else the axes get wider.
+        axes.set(aspect="equal", adjustable="box" if panel.x_limits or panel.y_limits else "datalim")
     if fields:
         axes.grid(visible=False)
     else:

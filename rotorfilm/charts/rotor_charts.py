@@ -38,6 +38,9 @@ FAR = 10.0
 DECREMENTS = (-1.0, 3.0)
 """Log decrements that decide: beyond, a mode is unstable or overdamped in any case."""
 
+DECISIVE = 0.3
+"""Log decrement below which a mode is one to look at."""
+
 
 def _points(x: Any, y: Any, label: str, marker: str, color: str = "k", size: float = 5.0) -> CurveMark:
     """Return open marks at one or more places."""
@@ -95,13 +98,14 @@ def plot_campbell(
 
 
 def plot_log_decrement(chart: analysis.Campbell) -> Picture:
-    """Describe the log decrement of each mode over speed [rpm], from -1 to 3; below zero the whirl grows.
+    """Describe the log decrement of each mode over speed [rpm]; below zero the whirl grows.
 
-    Modes that are beyond at all speeds are named as overdamped in the title. A dashed line is at 0.1, which
-    API 617 asks for.
+    The axis is that of the modes whose log decrement gets below 0.3, and reaches at most from -1 to 3. Modes
+    that are beyond at all speeds are named in the title. A dashed line is at 0.1, which API 617 asks for.
     """
-    low, high = DECREMENTS
-    marks: list[Mark] = [LevelMark(0.0), LevelMark(LEAST_DECREMENT, f"{LEAST_DECREMENT:g}", dash="--")]
+    low, high = _decisive(chart.log_decrement)
+    least = LevelMark(LEAST_DECREMENT, f"{LEAST_DECREMENT:g}, the least by API 617", dash="--")
+    marks: list[Mark] = [LevelMark(0.0), least]
     beyond = []
     for k, (decrement, frequency) in enumerate(zip(chart.log_decrement, chart.frequency, strict=True)):
         if np.nanmin(decrement) > high:
@@ -110,9 +114,19 @@ def plot_log_decrement(chart: analysis.Campbell) -> Picture:
         first = frequency[np.isfinite(frequency)][0] / HERTZ
         label, dash = f"mode {k + 1}, from {first:.3g} Hz", WITHIN[k // 10 % len(WITHIN)]
         marks.append(CurveMark(chart.speeds / RPM, decrement, label, f"C{k % 10}", dash))
-    modes = f"; overdamped, above {high:g}: mode {', '.join(beyond)}" if beyond else ""
+    modes = f"; above {high:.2g} at all speeds: mode {', '.join(beyond)}" if beyond else ""
     text = "speed [rpm]", "log decrement", f"Stability{modes}"
     return Picture((PicturePanel(marks, *text, y_limits=(low, high), legend="beside"),), size=(7.4, 4.8))
+
+
+def _decisive(decrements: Array) -> tuple[float, float]:
+    """Return the ends of an axis for the log decrements (modes, speeds) of modes that may become unstable."""
+    least, most = DECREMENTS
+    few = [own for own in decrements if np.nanmin(own) < DECISIVE]
+    if not few:
+        return least, most
+    high = min(max(1.2 * max(float(np.nanmedian(own)) for own in few), DECISIVE), most)
+    return max(min(1.2 * min(float(np.nanmin(own)) for own in few), -0.2 * high), least), high
 
 
 def plot_critical_speed_map(stiffness: Array, speeds: Array, *, bearing: Array | None = None) -> Picture:

@@ -61,6 +61,7 @@ def plain_rotor(answer: RotorAnswer) -> dict[str, Any]:
         "moments": to_plain(dict(answer.moments)),
         "axial_loads": dict(answer.axial_loads),
         "residual": answer.residual,
+        "journals": to_plain(dict(answer.journals)),
         "critical_speeds": to_plain(list(answer.critical_speeds)),
         "threshold": to_plain(answer.threshold),
         "campbell": {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from ..core.errors import FileWarning, InputError, RotorfilmError, SceneError, ValidityWarning
@@ -62,7 +62,7 @@ def main(arguments: list[str] | None = None) -> None:
     words = sys.argv[1:] if arguments is None else arguments
     try:
         with warnings.catch_warnings():
-            warnings.showwarning = _show_warning  # type: ignore[assignment]
+            warnings.showwarning = _shown_once()
             _run(words)
     except (RotorfilmError, OSError, MemoryError) as error:
         message = (
@@ -116,7 +116,13 @@ def _summary(documented: str | None) -> str:
     return (documented or "").strip().partition("\n")[0].replace("%", "%%")
 
 
-def _show_warning(message: Warning | str, category: type[Warning], *_: Any) -> None:
-    """Show what a model says of itself and of its files; others warn their developers."""
-    if issubclass(category, ValidityWarning | FileWarning):
-        console.complain("warning", message)
+def _shown_once() -> Callable[..., None]:
+    """Return what shows what a model says of itself and its files, each text once; others warn developers."""
+    told = set[str]()
+
+    def show(message: Warning | str, category: type[Warning], *_: Any) -> None:
+        if issubclass(category, ValidityWarning | FileWarning) and str(message) not in told:
+            told.add(str(message))
+            console.complain("warning", message)
+
+    return show

@@ -10,11 +10,12 @@ import numpy as np
 from ..core.answers import QuestionAnswer, RungReport
 from ..core.readable import Readable, without_round_off
 from ..core.results import CircularOrbit
+from ..core.units import CELSIUS
 
 if TYPE_CHECKING:
     from ..analysis import StabilityCurve, StabilityLevelOne
     from ..bearings.damper.answer import DamperAnswer
-    from ..scenes.solve_shaft import RotorAnswer
+    from ..scenes.solve_shaft import JournalAtRest, RotorAnswer
 
 RPM = 30.0 / math.pi
 """Turns per minute in one rad/s."""
@@ -49,6 +50,7 @@ def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
         rows += [
             (f"{kind} on {name}", f"{np.linalg.norm(one):.6g} {unit} {first}") for name, one in held.items()
         ]
+    rows += [(f"rest of {name}", _rest_text(one)) for name, one in answer.journals.items()]
     rows += [
         (
             "critical speed",
@@ -74,6 +76,15 @@ def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
         rows.append((f"largest {name}", f"{size} at {turned * RPM:.6g} rpm{remark}"))
     rows += [] if answer.level_one is None else level_one_rows(answer.level_one)
     return rows + [("left out", remark) for remark in answer.remarks]
+
+
+def _rest_text(one: JournalAtRest) -> str:
+    """Return where a journal rests."""
+    warm = "" if one.temperature is None else f", {one.temperature - CELSIUS:.4g} degC"
+    film = (
+        f"eccentricity ratio {one.eccentricity_ratio:.4g}, least film {1e6 * one.minimum_film:.4g} um{warm}"
+    )
+    return f"{film} at {one.speed * RPM:.6g} rpm"
 
 
 def level_one_rows(found: StabilityLevelOne) -> list[tuple[str, str]]:

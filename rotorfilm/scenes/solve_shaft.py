@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -18,9 +18,9 @@ from ..bearings.thrust.table import pads_load
 from ..core.answers import ISOTHERMAL
 from ..core.errors import InputError, RotorfilmError
 from ..core.model import Array
-from ..core.port import Reaction
+from ..core.port import Reaction, clearance_of, relative_film
 from ..core.progress import Report, part_of, silent
-from ..core.readable import Drawable
+from ..core.readable import Drawable, Readable
 from ..rotors import ShaftElement, ShaftRotor
 from .families import messages, prefixed, remarks_of
 from .oil_film_tables import turbulent_remarks
@@ -32,6 +32,28 @@ if TYPE_CHECKING:
 
     from .scene import Scene
     from .shaft_table import CompressorTable, ShaftTable
+
+
+@dataclass(frozen=True, kw_only=True)
+class JournalAtRest(Readable):
+    """A journal in its bearing.
+
+    Attributes
+    ----------
+    speed : float [rad/s]
+    load : float [N]
+        Across the shaft.
+    eccentricity_ratio : float [1]
+    minimum_film : float [m]
+    temperature : float or None [K]
+        Of a film whose heat balances; None for one of given viscosity.
+    """
+
+    speed: float
+    load: float
+    eccentricity_ratio: float
+    minimum_film: float
+    temperature: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,6 +85,8 @@ class RotorAnswer(Drawable):
         Of each displacement [m] and force on a housing [N] under the unbalance; empty without one.
     response : control.FrequencyResponseData or None
         The same with phases.
+    journals : dict of str to JournalAtRest
+        Each journal that may touch its bearing, at rest at the speed of `[operation]`, or at the last one.
     remarks : tuple of str
         What the physics of shaft and films leaves out and should not, at the last speed, and at that of the
         compressor.
@@ -82,6 +106,7 @@ class RotorAnswer(Drawable):
     campbell: analysis.Campbell
     amplitudes: Mapping[str, Array]
     response: control.FrequencyResponseData | None = field(repr=False)
+    journals: Mapping[str, JournalAtRest] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
     level_one: analysis.StabilityLevelOne | None = None
 
@@ -151,6 +176,7 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
         campbell=chart,
         amplitudes={} if response is None else _amplitudes(response),
         response=response,
+        journals=dict(_journals(rotor, bearings, speeds if scene.operation is None else [scene.speed])),
         remarks=(*own, *(line for line in remarks if line not in own)),
         level_one=found,
     )
@@ -283,6 +309,26 @@ def _compressor(scene: Scene) -> tuple[ShaftTable, CompressorTable]:
     if scene.shaft is None or scene.shaft.compressor is None:
         raise InputError("shaft.compressor is required for stability by API 617, got no such table")
     return scene.shaft, scene.shaft.compressor
+
+
+def _journals(
+    rotor: ShaftRotor, bearings: Mapping[str, Reaction], speeds: Sequence[float] | Array
+) -> Iterator[tuple[str, JournalAtRest]]:
+    """Yield station and rest of the journals that may touch, at the last of the speeds."""
+    at = analysis.rotor_equilibrium(rotor, bearings, float(speeds[-1]))
+    for name, film in at.coefficients.items():
+        clearance = clearance_of(bearings[name])
+        if clearance < math.inf:
+            yield (
+                name,
+                JournalAtRest(
+                    speed=at.speed,
+                    load=float(np.linalg.norm(at.loads[name][:2])),
+                    eccentricity_ratio=float(np.linalg.norm(film.position[:2])) / clearance,
+                    minimum_film=clearance * relative_film(bearings[name], film.position),
+                    temperature=at.temperatures.get(name),
+                ),
+            )
 
 
 # What the physics of all rungs leaves out of a flexible rotor.

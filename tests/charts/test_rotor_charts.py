@@ -65,7 +65,8 @@ def test_log_decrement_is_that_of_the_modes():
     first, second = panel.curves.values()
     np.testing.assert_allclose(first.y, [0.2 * np.pi, np.pi / 6, -np.pi / 7])
     assert np.isnan(second.y[2])
-    assert panel.y_limits == (-1.0, 3.0)
+    # Of the mode that becomes unstable: the other stays above 0.3.
+    np.testing.assert_allclose(panel.y_limits, [-1.2 * np.pi / 7, 1.2 * np.pi / 6])
     assert [one.at for one in panel.marks if isinstance(one, LevelMark)] == [0.0, 0.1]
 
 
@@ -73,7 +74,9 @@ def test_an_overdamped_mode_is_named_and_not_drawn():
     chart = replace(CHART, eigenvalues=CHART.eigenvalues - np.array([[0.0], [80.0]]))
     (panel,) = plot_log_decrement(chart).panels
     assert list(panel.curves) == ["mode 1, from 1.59 Hz"]
-    assert panel.title.endswith("overdamped, above 3: mode 2")
+    assert panel.title.endswith("above 0.63 at all speeds: mode 2")
+    (panel,) = plot_log_decrement(replace(chart, eigenvalues=chart.eigenvalues - 80.0)).panels
+    assert panel.y_limits == (-1.0, 3.0)
 
 
 def test_map_of_critical_speeds():

@@ -337,6 +337,11 @@ def test_warning_is_one_line_on_stderr_and_is_shown_once(scene):
     assert done.stderr.startswith("warning: length / diameter must not exceed 0.5 for ShortFilm(), got 0.6")
     assert done.stderr.count("\n") == 1
     json.loads(done.stdout)
+    # This one comes from several places.
+    done = subprocess.run(
+        [*command, "--set", "journal.clearance=8 mm"], capture_output=True, text=True, check=True
+    )
+    assert done.stderr.count("clearance / radius should be 1e-05 to 0.02, got 0.16") == 1
 
 
 FEW = [rung for rung in ladders.journal_rungs() if rung.name in ("published (1, 1)", "2-D 48 x 4", "map")]

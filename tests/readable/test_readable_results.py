@@ -42,6 +42,7 @@ NO_RESULTS = {
             "Unit",
             "Family",
             "PadTable",
+            "Gap",
             "MarchMotion",
             "Residual",
             "ModalFilms",
