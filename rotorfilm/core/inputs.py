@@ -274,6 +274,10 @@ hydrogenerators and from gases to greases. What a study lets go to zero or to in
 a viscosity or the modulus of a rigid shaft, has no bound there."""
 
 
+STIFFEST = 1e13
+"""Modulus of nothing that is built [Pa], where there is no bound."""
+
+
 def built_unit(name: str, value: float, unit: str) -> str:
     """Return the first unit in which a number is a size that is built; empty where there is none."""
     measure, least, most = BUILT.get(name) or BUILT.get(name.replace("diameter", "radius"), ("", 0.0, 0.0))
@@ -283,7 +287,7 @@ def built_unit(name: str, value: float, unit: str) -> str:
     fitting = (
         other
         for other, scale in DISPLAY_UNITS.items()
-        if scale.exponents == same and least <= abs(value) * scale.factor <= most
+        if scale.exponents == same and least <= abs(value) * scale.factor <= min(most, STIFFEST)
     )
     return next(fitting, "")
 

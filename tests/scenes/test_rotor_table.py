@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotorfilm import InputError, LinearBearing, SceneError
-from rotorfilm.analysis import critical_speeds, rotor_threshold, unbalance_response
+from rotorfilm.analysis import critical_speeds, equilibrium, rotor_threshold, unbalance_response
 from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.rotors import (
     ClassicalBeam,
@@ -29,6 +29,7 @@ from rotorfilm.scenes import Scene, bundled_scene, parse_scene
 from rotorfilm.scenes.solve_shaft import campbell_columns, response_columns, solve_level_one, solve_rotor
 
 RPM = math.pi / 30.0
+EXAMPLES = Path(__file__).parents[2] / "examples"
 HEAD = """schema = 1
 [shaft]
 material = { young_modulus = "211 GPa", shear_modulus = "81.2 GPa", density = 7810 }
@@ -92,6 +93,23 @@ def plain(**changes):
         "speed": 0.0,
     }
     return ShaftRotor(**(parts | changes))
+
+
+def test_journals_rest_as_their_bearings_do_under_the_loads_alone():
+    """At the speed of the operation, or at the last one; springs have no film."""
+    text = (EXAMPLES / "flexible_rotor.toml").read_text(encoding="utf-8").replace("count = 45", "count = 3")
+    last = parse_scene(text, "a.toml")
+    asked = parse_scene(text + '[operation]\nspeed = "1500 rpm"\n', "a.toml")
+    for given, speed in ((last, 4600.0 * RPM), (asked, 1500.0 * RPM)):
+        found = solve_rotor(given).journals
+        for name, bearing in given.shaft.build_bearings().items():
+            one = found[name]
+            alone = equilibrium(bearing, [0.0, -one.load], speed)
+            assert one.speed == pytest.approx(speed, rel=1e-12)
+            assert one.eccentricity_ratio == pytest.approx(alone.eccentricity_ratio, rel=1e-6)
+            assert one.minimum_film == pytest.approx(alone.minimum_film, rel=1e-6)
+            assert one.temperature is None
+    assert solve_rotor(scene(HEAD, SHAFT, DISKS, SPEEDS, SPRINGS)).journals == {}
 
 
 def test_a_scene_is_the_rotor_of_the_library():
