@@ -71,8 +71,10 @@ def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
         small = unit in ("m", "rad")
         size = f"{amplitude[k] * (1e6 if small else 1.0):.4g} {'u' if small else ''}{unit}"
         turned = float(np.asarray(answer.response.frequency)[k])
-        beyond = found.speed is not None and turned > found.speed
-        remark = ", beyond the threshold" if beyond else ""
+        if found.speed is None:
+            remark = ", where the rotor is unstable" if found.reason.startswith("unstable") else ""
+        else:
+            remark = ", beyond the threshold" if turned > found.speed else ""
         rows.append((f"largest {name}", f"{size} at {turned * RPM:.6g} rpm{remark}"))
     rows += [] if answer.level_one is None else level_one_rows(answer.level_one)
     return rows + [("left out", remark) for remark in answer.remarks]

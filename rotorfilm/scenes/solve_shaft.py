@@ -334,6 +334,10 @@ def _journals(
 # What the physics of all rungs leaves out of a flexible rotor.
 
 
+UNLOADED = 1e-9
+"""Load of a bearing over the weight of the rotor, below which it is roundoff."""
+
+
 def shaft_remarks(
     rotor: ShaftRotor, bearings: Mapping[str, Reaction], oil: Lubricant, speed: float
 ) -> tuple[str, ...]:
@@ -345,6 +349,10 @@ def shaft_remarks(
         bearing = given.bearing if isinstance(given, MomentCarryingJournal) else given
         if isinstance(bearing, JournalBearing):
             x, y = at.loads[name].tolist()[:2]
+            if math.hypot(x, y) <= UNLOADED * float(np.linalg.norm(rotor.assembly.weight)):
+                none = "it carries none, so that its film has no stiffness along a load"
+                lines.append(f"{name}: load: {none} and may whirl at any speed")
+                continue
             found = (*turbulent_remarks(bearing, speed, (x, y)), *film_remarks(bearing, oil, speed, (x, y)))
             found += () if tilted else tilt_remarks(rotor, name, bearing, at)
             lines += prefixed(f"{name}, at {speed:.4g} rad/s: ", found)

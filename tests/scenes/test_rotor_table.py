@@ -95,6 +95,25 @@ def plain(**changes):
     return ShaftRotor(**(parts | changes))
 
 
+def test_a_bearing_that_carries_nothing_is_said():
+    """Of two bearings, one of them under the only mass."""
+    bearing = (
+        'journal = { diameter = "100 mm", length = "30 mm", clearance = "0.1 mm", viscosity = "0.1 Pa s" }'
+    )
+    bearings = "".join(
+        f'[[shaft.bearings]]\nname = "{name}"\nnode = {node}\n{bearing}\n'
+        for name, node in (("left", 0), ("right", 2))
+    )
+    light = HEAD.replace("density = 7810", "density = 1e-6")
+    shaft = 'elements = [{ length = "1 m", outer_diameter = "80 mm", pieces = 2 }]\n'
+    disk = 'disks = [{ node = 2, mass = "50 kg", polar_inertia = "0.8 kg m2", diametral_inertia = 0.42 }]\n'
+    unbalance = 'unbalances = [{ node = 2, unbalance = "1 g mm" }]\n'
+    answer = solve_rotor(parse_scene("".join((light, shaft, disk, unbalance, SPEEDS, bearings)), "a.toml"))
+    none = "it carries none, so that its film has no stiffness along a load and may whirl at any speed"
+    assert f"left: load: {none}" in answer.remarks
+    assert not any(line.startswith("left, ") for line in answer.remarks)
+
+
 def test_journals_rest_as_their_bearings_do_under_the_loads_alone():
     """At the speed of the operation, or at the last one; springs have no film."""
     text = (EXAMPLES / "flexible_rotor.toml").read_text(encoding="utf-8").replace("count = 45", "count = 3")
