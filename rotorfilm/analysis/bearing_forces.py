@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ..core.model import Array
 from ..core.port import freedoms_of, inertial, mass_of
 from ..rotors.structure import freedom_rows
 from .compiled_rotor import Parts, equations, state_matrices, turning_pairs
-from .force_calls import CrackForce
+from .force_calls import CrackForce, warms
 
 
 def bearing_forces(parts: Parts, time: Array, states: Array, turn: Array) -> list[Array]:
@@ -24,29 +26,43 @@ def bearing_forces(parts: Parts, time: Array, states: Array, turn: Array) -> lis
     turn : ndarray, shape (3, n_times)
         Angle, speed and angular acceleration.
     """
-    n, linear, speed = len(parts.structure.weight), {one.station: one for one in parts.linear}, turn[1]
+    n, speed = len(parts.structure.weight), turn[1]
     journals = list(zip(parts.names, parts.bearings, strict=False))
     rows = [freedom_rows(parts.structure, name, freedoms_of(bearing)) for name, bearing in journals]
     moved = [(seen @ states[:, :n].T, seen @ states[:, n : 2 * n].T) for seen in rows]
-    found = [
-        np.zeros_like(at[0]) if name in linear else np.asarray(bearing.force(*at, speed))
+    first, inner = 2 * n, {}
+    for one in parts.linear:
+        last = first + len(one.system.A)
+        inner[one.station], first = states[:, first:last].T, last
+    outputs = [
+        bearing.outputs_over_time(inner[name][0], *at, speed) if warms(bearing) else None
         for (name, bearing), at in zip(journals, moved, strict=True)
+    ]
+    found = [
+        shown[:2] if shown is not None else _force(bearing, at, speed, linear=name in inner)
+        for (name, bearing), at, shown in zip(journals, moved, outputs, strict=True)
     ]
     accelerations = np.zeros((2 * len(journals), len(time)))
     if any(inertial(bearing) is not None for _, bearing in journals):
         found, accelerations = _with_inertia(parts, found, moved, time, states, turn)
-    first = 2 * n
     for one in parts.linear:
-        k, last = parts.names.index(one.station), first + len(one.system.A)
-        inner = states[:, first:last].T
-        force = one.system.C @ inner + one.system.D @ np.concatenate(moved[k])
+        k = parts.names.index(one.station)
+        shown, own = outputs[k], inner[one.station]
+        if shown is not None:
+            found[k] = np.concatenate([found[k], shown[2:], own])
+            continue
+        force = one.system.C @ own + one.system.D @ np.concatenate(moved[k])
         found[k] = force - one.mass @ accelerations[2 * k : 2 * k + 2]
         if one.reaction.states:
             still = np.append(np.zeros(4), parts.profile.speeds[0])
             further = one.reaction.output(0.0, one.reaction.initial_state, still)[2:]
-            found[k] = np.concatenate([found[k], np.outer(further, np.ones(len(time))), inner])
-        first = last
+            found[k] = np.concatenate([found[k], np.outer(further, np.ones(len(time))), own])
     return found
+
+
+def _force(bearing: Any, at: tuple[Array, Array], speed: Array, *, linear: bool) -> Array:
+    """Return the force of a bearing in a motion, shape (2, n_times), less that of the linear equations."""
+    return np.zeros_like(at[0]) if linear else np.asarray(bearing.force(*at, speed))
 
 
 def _with_inertia(

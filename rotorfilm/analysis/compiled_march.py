@@ -41,7 +41,7 @@ from ..rotors.structure import prefixed
 from . import compiled_rotor
 from .bearing_forces import bearing_forces
 from .compiled_rotor import modes, starts
-from .force_calls import of_station, raise_foreign, torque_call, warn_beyond, warn_of_thin_films
+from .force_calls import of_station, raise_foreign, torque_call, warms, warn_beyond, warn_of_thin_films
 from .threads import one_blas_thread
 
 LONGEST_TURN = 1.0
@@ -86,7 +86,8 @@ def simulate_rotor(
     mounted : MountedRotor
         Mounted rotor from `mount`, with a bearing in at least one station, and without free force inputs. Its
         bearings react to x and y, or are a `MomentCarryingJournal`, and have no states unless they are
-        linear, as a `FrequencyDependentReaction`. Its speed may be a profile, or follow from a motor.
+        linear, as a `FrequencyDependentReaction`, or journal bearings whose oil warms. Its speed may be a
+        profile, or follow from a motor.
     duration : float [s]
     samples : int
         Number of samples at equal distance, from 0 to `duration` inclusive.
@@ -96,8 +97,9 @@ def simulate_rotor(
         State at t = 0, instead of the rotor's own.
     rtol : float [1]
         Local error of the journals at every moment: displacement / clearance and velocity /
-        (clearance speed). On a motor also that of the angle, in rad, and of the speed. There velocities and
-        speed are divided by the largest speed that is known before the run, as the idle speed.
+        (clearance speed), and temperature / 30 K of films that warm. On a motor also that of the angle, in
+        rad, and of the speed. There velocities and speed are divided by the largest speed that is known
+        before the run, as the idle speed.
     max_step : float [s]
     condensation : float [1]
         Largest displacement of a journal by the neglected shapes of a large shaft, in clearances. With 0 the
@@ -117,7 +119,8 @@ def simulate_rotor(
     ContactError
         If a journal reaches the wall; the error carries the trajectory until then.
     ConvergenceError
-        If a film force is not finite or steps become too small; the error carries the trajectory until then.
+        If a film force is not finite, steps become too small or a film gets so hot that the viscosity of its
+        oil is not tabulated; the error carries the trajectory until then.
 
     Warns
     -----
@@ -330,9 +333,10 @@ class ModalArrays(NamedTuple):
     Attributes
     ----------
     values, push, sense : ndarray of complex
-        Values, push and sense as for a `ModalRotor`. Where a bearing adds a mass, `sense` goes on with ax, ay
-        of each journal, and on a motor with the acceleration of the unbalance. There `push` ends with zeros,
-        for the angular acceleration.
+        Values, push and sense as for a `ModalRotor`. Where a film warms, `sense` goes on with the temperature
+        of each journal, and `push` has the rates of these behind the forces. Where a bearing adds a mass,
+        `sense` goes on with ax, ay of each journal, and on a motor with the acceleration of the unbalance.
+        There `push` ends with zeros, for the angular acceleration.
     direct : ndarray, shape (n_rows, n_channels), or None
         These accelerations per force at the same moment; None without.
     rates : ndarray of complex, shape (n_accelerations, n_modes), or None
@@ -353,6 +357,9 @@ class ModalArrays(NamedTuple):
         if modal.parts.motor:
             every.append(compiled_rotor.unbalance_rates(modal))
             push = np.column_stack([push, np.zeros(len(push))])
+        if (warm := modal.parts.temperatures) is not None:
+            push = np.insert(push, [2 * len(warm)], modal.inverse @ warm.T, axis=1)
+            sense = np.vstack([sense, warm @ modal.shapes])
         rates = np.vstack(every[not modal.is_heavy :]) if modal.is_heavy or modal.parts.motor else None
         if rates is not None:
             direct = np.vstack([np.zeros((len(sense), push.shape[1])), (rates @ push).real])
@@ -435,6 +442,12 @@ BUDGET = 20000
 SHORTEST = 1e-13
 """Shortest step, relative to the duration, before a run is given up."""
 
+KELVINS = 30.0
+"""Difference of temperature that counts as much as a clearance [K]: it changes the viscosity e-fold."""
+
+EDGE = 1e-3
+"""Distance from where an oil is no longer tabulated at which a run that cannot go on is at its end [K]."""
+
 NEWTON = 0.01
 """Error left by Newton's method, in local errors."""
 
@@ -465,6 +478,10 @@ class End(IntEnum):
     BROKEN = 4
     NO_MEMORY = 5
     BAND = 6
+
+
+class OilTemperatureError(ConvergenceError):
+    """The temperature of a film came to where the viscosity of its oil is not tabulated."""
 
 
 class March:
@@ -620,6 +637,8 @@ class March:
         at = f"at t = {self.time:.9g} s"
         if end == End.WALL:
             return ContactError(f"journal{of_station(self._closest())} reached the wall {at}", kept)
+        if end == End.BROKEN and (hot := self._beyond_oil()):
+            return OilTemperatureError(f"{hot} {at}", kept)
         if end == End.BROKEN:
             return ConvergenceError(
                 f"film force{' and drive torque' * bool(self._torque)} must be finite and the forces of a "
@@ -627,6 +646,21 @@ class March:
                 kept,
             )
         return ConvergenceError(f"integration needs steps below {SHORTEST:g} of the duration {at}", kept)
+
+    def _beyond_oil(self) -> str:
+        """Return which film has come to where its oil is not tabulated; empty where none has."""
+        parts = self.modal.parts
+        if parts.temperatures is None:
+            return ""
+        found = (parts.temperatures @ self.modal.shapes @ self.state).real.tolist()
+        for name, bearing, t in zip(parts.names, parts.bearings, found, strict=False):  # not for a crack
+            coldest, hottest = bearing.temperature_range if warms(bearing) else (-math.inf, math.inf)
+            if not coldest + EDGE < t < hottest - EDGE:
+                return (
+                    f"temperature{of_station(name)} must be from {coldest:g} to {hottest:g} K, where the "
+                    f"viscosity of the oil is tabulated, got {t:.6g} K"
+                )
+        return ""
 
     def _closest(self) -> str:
         """Return the station whose journal is nearest to its wall."""
@@ -655,12 +689,13 @@ def rate_of(modal: compiled_rotor.ModalRotor) -> float:
 
 
 def journal_scales(modal: compiled_rotor.ModalRotor) -> Array:
-    """Return what makes x, y, vx, vy of each journal dimensionless, and 0 for accelerations and a crack."""
+    """Return what makes x, y, vx, vy and temperature of each journal dimensionless, 0 for the others."""
     rate, lengths = rate_of(modal), modal.parts.lengths.copy()
     lengths[len(modal.parts.names) * modal.parts.points :] = math.inf
     motion = [np.array([1.0, 1.0, 1.0 / rate, 1.0 / rate]) / c for c in lengths]
+    warm = np.full(len(lengths) if modal.parts.temperatures is not None else 0, 1.0 / KELVINS)
     further = 2 * len(lengths) * modal.is_heavy + 2 * bool(modal.parts.motor)
-    return np.concatenate([*motion, np.zeros(further)])
+    return np.concatenate([*motion, warm, np.zeros(further)])
 
 
 # A run of a rotor whose speed may change its gyroscopic effect and rotating damping: march after march.

@@ -20,6 +20,7 @@ from ..core.errors import (
     warn_user,
 )
 from ..core.model import Array
+from ..core.port import optional
 from ..core.results import Trajectory
 from ..core.signals import Signal
 from ..native import Status
@@ -184,6 +185,11 @@ def torque_call(torque: Any) -> FilmCall:
         return np.array([torque.torque(*at)], dtype=float), np.array([torque.slope(*at)], dtype=float)
 
     return _call_of(driven, [])
+
+
+def warms(bearing: Any) -> bool:
+    """Return whether a bearing is a film in C whose temperature is its state."""
+    return optional(bearing, "warming_call") is not None
 
 
 def feels_tilt(bearing: Any) -> bool:

@@ -35,7 +35,13 @@ from ..core.signals import FORCE_OUTPUTS, MOTION_NAMES, Signal, force_names, nam
 from ..rotors import ForcedRotor, MountedRotor, ShaftRotor, mount
 from ..rotors.mounted import Mount, wired
 from ..rotors.structure import prefixed, station_names
-from .compiled_march import require_duration, require_longest_step, sample_times, simulate_rotor
+from .compiled_march import (
+    OilTemperatureError,
+    require_duration,
+    require_longest_step,
+    sample_times,
+    simulate_rotor,
+)
 from .compiled_rotor import CONTACT_GAP, compiled_form, takes_forces
 from .force_calls import of_station, warn_of_thin_films
 from .rotor_equilibrium import rotor_equilibrium
@@ -71,7 +77,8 @@ def simulate(
     rotor : Dynamic
         Rotor with outputs x, y, vx, vy, speed and inputs force_x, force_y.
     reaction : Reaction, JFOFilm, or mapping of str to either
-        The film. If the heat balance determines its temperature, the temperature becomes a state.
+        The film. If the heat balance determines its temperature, the temperature becomes a state, which
+        starts at that of the fresh oil.
         Mass-conserving films start from their steady state. A flexible rotor takes one film for each station
         by name; use `mount` where the last one is of another kind.
     duration : float [s]
@@ -106,8 +113,9 @@ def simulate(
     ContactError
         If the journal reaches the wall; the error carries the trajectory until then.
     ConvergenceError
-        If the integrator gives up or the film force is not finite; the error carries the trajectory
-        until then.
+        If the integrator gives up, the film force is not finite, or the compiled integration comes to a
+        temperature at which the viscosity of an oil is not tabulated (253.15 to 473.15 K); the error carries
+        the trajectory until then.
 
     Warns
     -----
@@ -215,6 +223,8 @@ def _compiled(system: Coupled, film: Any, in_c: Callable[[MountedRotor], Traject
         return _shown(in_c(mounted), labels)
     except ContactError as contact:
         raise ContactError(str(contact), _shown(contact.partial, labels)) from contact
+    except OilTemperatureError as hot:
+        raise OilTemperatureError(str(hot), _shown(hot.partial, labels)) from hot
     except ConvergenceError:
         return None  # scipy gives its own message, if it gives up too
 

@@ -57,6 +57,8 @@ class Reaction(Model, Protocol):
       others;
     - `is_warming`, `at_temperature(T)`, `balanced_temperature(...)`, `next_temperature(...)`, `coldest()`,
       `balanced()`, `in_time()`, where the temperature of the film follows from its heat;
+    - `warming_call()`, force and rate of its one state, a temperature, in the C library, a `FilmCall` or
+      None, with `temperature_range` and `outputs_over_time(...)`;
     - `breakpoints`, the times [s] at which an integrator should stop, in rising order;
     - `warn_of_load(load)` and `warn_of_flow(speed, temperature, hottest)`, which warn where the model of its
       film ends; a film may have a `bearing` that warns;

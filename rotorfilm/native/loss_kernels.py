@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.model import Array
-from .film_call import address_of
+from .film_call import FilmCall, address_of
 from .film_kernels import JournalKernel, as_floats, taken
 from .library import loops
 from .structs import structure
@@ -172,6 +172,19 @@ class BalancedKernel:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._arguments
+
+    def warming(self, capacity: float, beyond: str) -> FilmCall:
+        """Return force and rate of the temperature over motion, speed and temperature (`rf_warming_at`).
+
+        Parameters
+        ----------
+        capacity : float [J/K]
+            Heat capacity of film and bush.
+        beyond : str
+            As that of a `FilmCall`.
+        """
+        struct = structure("rf_warming")(film=self._struct, per_capacity=1.0 / capacity)
+        return FilmCall(address_of("rf_warming_at"), addressof(struct), (struct, self), beyond)
 
     def tangent(
         self, x: float, y: float, vx: float, vy: float, speed: float

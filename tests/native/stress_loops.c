@@ -242,7 +242,7 @@ static void try_march(const rf_response *films, const void *const *of, int is_fr
     rf_march march = {
         {MODES, CHANNELS, ROWS, rotor.values, rotor.push, rotor.sense, rotor.direct, rotor.rates},
         {STAGES, NODES, LAGRANGE, REMAINDER},
-        {JOURNALS, 1, films, of, rest, spring, damper, lengths, walls, arms, NULL, NULL},
+        {JOURNALS, 1, films, of, rest, spring, damper, lengths, walls, arms, NULL, NULL, NULL},
         {2, times, speeds, slopes, angles},
         {about(300.0, odd), is_free || uniform() < 0.5 ? NULL : turned, turned_rest},
         .scales = scales, .longest = duration / 3.0, .shortest = 1e-13 * duration,

@@ -26,6 +26,7 @@ from ...core.model import Array
 from ...core.port import Tangent
 from ...core.readable import Readable
 from ...core.results import BearingLosses
+from ...native.film_call import FilmCall
 from ...native.film_kernels import JournalKernel, Status
 from ...native.loss_kernels import BalancedBatch, BalancedKernel, LossKernel
 from ...native.spec import NativeSpec, journal_spec
@@ -655,6 +656,10 @@ class BalancedBearing(StaticReaction):
             return force_x, force_y, slopes
 
         return tangent
+
+    def warming_call(self, capacity: float) -> FilmCall:
+        """Return force and rate of the temperature in C, the heat capacity of film and bush being in J/K."""
+        return self._kernel.warming(capacity, self._film.beyond)
 
     def heat_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
         """Return d(power, effective flow, side flow)/d(x, y, vx, vy, speed) at 1 Pa s, shape (3, 5)."""

@@ -16,6 +16,7 @@ from ...core.inputs import quantities
 from ...core.model import Array, Linearization
 from ...core.results import BearingLosses
 from ...core.signals import Signal, signals_of
+from ...native.film_call import FilmCall
 from ...native.loss_kernels import OilTable
 from ...native.spec import NativeSpec, parameter
 from ..films.mobility import Mobility
@@ -133,6 +134,35 @@ class HeatedBearing:
             values["carry_over"] = cooling.carry_over
         film = {**found[0].kernel.film.tables, **found[1].tables}
         return heated_spec(values, film, viscosity_table(oil), full_gap=cooling.full_gap)
+
+    @property
+    def temperature_range(self) -> tuple[float, float]:
+        """Lowest and highest temperature [K] at which loops in C know the oil."""
+        table = viscosity_table(self.bearing.cooled[0])
+        return table.coldest, table.hottest
+
+    def warming_call(self) -> FilmCall | None:
+        """Return force and rate of the temperature for loops in C (`rf_warming_at`); None without one."""
+        balanced = self.bearing.balanced() if type(self) is HeatedBearing else None
+        return None if balanced is None else balanced.warming_call(self.capacity)
+
+    def outputs_over_time(self, temperature: Array, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return the outputs at many temperatures and motions of a film that has a `warming_call`.
+
+        Parameters
+        ----------
+        temperature, speed : ndarray, shape (n,) [K], [rad/s]
+        position, velocity : ndarray, shape (2, n) [m], [m/s]
+
+        Returns
+        -------
+        ndarray, shape (5, n)
+        """
+        film, oil = self._at_start, self.bearing.cooled[0]
+        thinner = oil.law.viscosity(temperature) / film.film_viscosity
+        losses = film.losses(position, velocity, speed)
+        force = thinner * film.force(position, velocity, speed)
+        return np.array([*force, temperature, thinner * losses.power_loss, losses.side_flow])
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on the journal at the start temperature, shape (2, ...) [N]."""

@@ -214,6 +214,36 @@ int rf_balanced_at(const rf_heated *film, const double *state, double *f, double
     return status;
 }
 
+int rf_warming_at(const void *of, const double *state, double *f, double *jacobian)
+{
+    const rf_warming *warming = of;
+    const rf_heated *film = &warming->film;
+    const double t = state[5], per = warming->per_capacity;
+    rf_heat heat;
+    rf_heat_slopes by;
+    rf_viscosity mu;
+    if (rf_oil_viscosity(&film->oil, t, &mu) != RF_OK)
+        return RF_INVALID;
+    const int status = rf_heat_at(film, state, &heat, jacobian ? &by : NULL);
+    if (status > RF_OUTSIDE)
+        return status;
+    f[0] = mu.value * heat.force[0];
+    f[1] = mu.value * heat.force[1];
+    f[2] = per * rf_heat_surplus(film, &heat, t, &mu);
+    if (!jacobian)
+        return status;
+    const double warmer = film->volumetric_heat * (t - film->supply);
+    for (int k = 0; k < 5; ++k) {
+        jacobian[k] = mu.value * by.force[k];
+        jacobian[6 + k] = mu.value * by.force[5 + k];
+        jacobian[12 + k] = per * (mu.value * by.drag[k] - warmer * by.flow[k]);
+    }
+    jacobian[5] = mu.thins * f[0];
+    jacobian[11] = mu.thins * f[1];
+    jacobian[17] = per * rf_heat_slope(film, &heat, &mu);
+    return status;
+}
+
 int rf_balanced_batch(const rf_heated *film, size_t n, const double *states, double *f, double *temperature,
                       double *jacobian, size_t *first)
 {

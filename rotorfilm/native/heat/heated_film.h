@@ -71,6 +71,16 @@ int rf_balance(const rf_heated *film, const rf_heat *heat, double *temperature, 
 RF_EXPORT_LOOP int rf_balanced_at(const rf_heated *film, const double *state, double *f, double *jacobian,
                                   double *temperature);
 
+/* A film whose temperature is a state. */
+typedef struct rf_warming {
+    rf_heated film;
+    double per_capacity; /* K/J */
+} rf_warming;
+
+/* Force and rate of the temperature [K/s] of an rf_warming at a state x, y, vx, vy, speed, temperature: f[3] and, unless
+   NULL, jacobian[3][6]. RF_INVALID where the oil is not known. */
+RF_EXPORT_LOOP int rf_warming_at(const void *of, const double *state, double *f, double *jacobian);
+
 /* n states in rows of n, x, y, vx, vy, speed; rows of forces (2), temperatures and, unless NULL, Jacobians (10). */
 RF_EXPORT_LOOP int rf_balanced_batch(const rf_heated *film, size_t n, const double *states, double *f,
                                      double *temperature, double *jacobian, size_t *first);

@@ -2,13 +2,15 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "../films/map_frame.h"
 
 #define NUDGE 1e-6 /* of a clearance and a radian: the velocity with which a film at rest is asked */
 
-/* The film of a journal at a state of so many freedoms. */
-static int film_at(const rf_journals *journals, int32_t b, int freedoms, double *state, double *answer, double *jacobian)
+/* The film of a journal at a state of so many freedoms: answers with so many slopes. */
+static int film_at(const rf_journals *journals, int32_t b, int freedoms, double *state, int answers, double *answer,
+                   int slopes, double *jacobian)
 {
     int status = journals->films[b](journals->of[b], state, answer, jacobian);
     if (status == RF_UNDEFINED) {
@@ -19,13 +21,12 @@ static int film_at(const rf_journals *journals, int32_t b, int freedoms, double 
         state[freedoms] = rate;
         status = status == RF_UNDEFINED ? RF_OK : status;
     }
-    const int forces = freedoms, slopes = freedoms * (2 * freedoms + 1);
-    if (status < RF_AT_WALL && (rf_is_broken(answer, (size_t)forces) || rf_is_broken(jacobian, (size_t)slopes)))
+    if (status < RF_AT_WALL && (rf_is_broken(answer, answers) || rf_is_broken(jacobian, slopes)))
         status = RF_NOT_FINITE;
     return status;
 }
 
-/* What the mass that a film adds does at an acceleration, to force[2] and slope[2][6]. */
+/* What the mass that a film adds does at an acceleration, to force[2] and slope[2][width], whose last columns are its. */
 static int weigh(const rf_journals *journals, int32_t b, const double *state, const double *a, double *force,
                  double *slope)
 {
@@ -34,20 +35,44 @@ static int weigh(const rf_journals *journals, int32_t b, const double *state, co
     const int status = heavy ? heavy(journals->of_masses[b], state, mass, by) : RF_OK;
     if (status < RF_AT_WALL && (rf_is_broken(mass, 3) || rf_is_broken(by, 12)))
         return RF_NOT_FINITE;
-    rf_add_inertia(mass, by, a, 6, force, slope);
+    const int width = rf_slope_width(journals);
+    rf_add_inertia(mass, by, a, width, force, slope);
     for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2; ++j)
-            slope[6 * i + 4 + j] = -mass[i + j];
+            slope[width * (i + 1) - 2 + j] = -mass[i + j];
     return status;
 }
 
-/* A journal without tilt: force[2], slope[2][4], of 6 columns with its acceleration. */
+/* A film with a temperature: force[2] and slope[2][5], and at its number behind those of all journals the rate. */
+static int warming(const rf_journals *journals, int32_t b, double *state, double *force, double *slope, double *by_speed)
+{
+    const int32_t width = rf_slope_width(journals), behind = 2 * (journals->count - b) + b;
+    double answer[3], jacobian[18];
+    const int status = film_at(journals, b, 2, state, 3, answer, 18, jacobian);
+    for (int i = 0; i < 3; ++i) {
+        const int32_t row = i < 2 ? i : behind;
+        force[row] = answer[i];
+        for (int j = 0; j < 5; ++j)
+            slope[width * row + j] = jacobian[6 * i + (j < 4 ? j : 5)];
+        if (by_speed)
+            by_speed[row] = jacobian[6 * i + 4];
+    }
+    force[behind] += journals->decays[b] * state[5];
+    slope[width * behind + 4] += journals->decays[b];
+    return status;
+}
+
+/* A journal without tilt at x, y, vx, vy and its temperature: force[2], slope[2][4], with more columns for the temperature
+   and the acceleration. */
 static int planar(const rf_journals *journals, int32_t b, const double *at, const double *a, const double *turning,
                   double *force, double *slope, double *by_speed)
 {
     const int32_t width = rf_slope_width(journals);
-    double state[6] = {at[0], at[1], at[2], at[3], turning[0], turning[1]}, jacobian[10];
-    const int status = film_at(journals, b, 2, state, force, jacobian);
+    const int warms = journals->decays && journals->decays[b] > 0.0;
+    double state[6] = {at[0], at[1], at[2], at[3], turning[0], warms ? at[4] : turning[1]}, jacobian[10];
+    if (warms)
+        return warming(journals, b, state, force, slope, by_speed);
+    const int status = film_at(journals, b, 2, state, 2, force, 10, jacobian);
     for (int i = 0; i < 2; ++i) {
         for (int j = 0; j < 4; ++j)
             slope[width * i + j] = jacobian[5 * i + j];
@@ -74,7 +99,7 @@ static int tilted(const rf_journals *journals, int32_t b, const double *at, doub
             state[freedoms + i] += part[i][j] * at[4 * (j / 2) + 2 + j % 2];
         }
     state[2 * freedoms] = speed;
-    const int status = film_at(journals, b, freedoms, state, answer, jacobian);
+    const int status = film_at(journals, b, freedoms, state, freedoms, answer, freedoms * width, jacobian);
     for (int r = 0; r < 4; ++r) {
         double turned = 0.0;
         force[r] = 0.0;
@@ -100,15 +125,23 @@ int rf_set_forces(const rf_journals *journals, const double *motion, double spee
     const int32_t points = journals->points, rows = 4 * points, width = rf_slope_width(journals);
     const double turning[2] = {speed, turned};
     int worst = RF_OK;
+    if (journals->decays) { /* journals without a temperature leave theirs as it is */
+        memset(force, 0, (size_t)rf_force_count(journals) * sizeof *force);
+        memset(slope, 0, (size_t)(rf_force_count(journals) * width) * sizeof *slope);
+        if (by_speed)
+            memset(by_speed, 0, (size_t)rf_force_count(journals) * sizeof *by_speed);
+    }
     for (int32_t b = 0; b < journals->count / points; ++b) {
         double at[8];
         for (int32_t k = 0; k < rows; ++k)
             at[k] = journals->rest[rows * b + k] + motion[rows * b + k];
+        if (journals->decays)
+            at[4] = journals->rest[4 * journals->count + b] + motion[4 * journals->count + b];
         for (int32_t p = 0; p < points; ++p)
             if (hypot(at[4 * p], at[4 * p + 1]) >= journals->walls[points * b + p])
                 return RF_AT_WALL;
         double *const to = force + 2 * points * b, *const by = slope + 2 * points * width * b;
-        const double *a = journals->masses ? motion + 4 * journals->count + 2 * b : NULL;
+        const double *a = journals->masses ? motion + rf_state_count(journals) + 2 * b : NULL;
         double *const faster = by_speed ? by_speed + 2 * points * b : NULL;
         const int status = points == 1 ? planar(journals, b, at, a, turning, to, by, faster)
                                        : tilted(journals, b, at, speed, to, by, faster);

@@ -12,25 +12,44 @@
 
    Where one of them feels its tilt, each is two points of the shaft beside its middle, with half of the force
    and the moment over the arm: then films have states and forces as of rf_tilted_at, or with an arm of 0 as
-   before. */
+   before.
+
+   Where the temperature of one of the films is a state, each journal has a temperature behind the motion of all of
+   them, and its rate behind the forces of all of them; it stays where a film has none. Films that have one are rf_warming_at,
+   and their temperatures decay by themselves in the rotor, which is given back here as the springs are. No journal may
+   feel its tilt beside them. */
 typedef struct rf_journals {
     int32_t count;                 /* of points: n */
     int32_t points;                /* of each journal, 1 or 2 */
     const rf_response *films;
     const void *const *of;
-    const double *rest;            /* 4 n: motion about which that of the rotor is counted */
+    const double *rest;            /* rf_state_count: motion, and temperatures, about which those of the rotor are counted */
     const double *spring, *damper; /* 2 n [N/m], [N s/m] */
     const double *lengths;         /* n: typical displacements [m] */
     const double *walls;           /* n: eccentricities at which a journal counts as touching [m] */
     const double *arms;            /* n/points: distance of both points from the middle [m] */
     const rf_mass_response *masses; /* n: of what a film adds, or NULL; NULL where no film does */
     const void *const *of_masses;
+    const double *decays;          /* n: of the temperatures of films, 0 without one [1/s]; NULL where no film has one */
 } rf_journals;
 
-/* Numbers by which the force of a journal changes: its motion, and with added masses its acceleration. */
+/* Numbers by which the force of a journal changes: its motion, its temperature, and with added masses its
+   acceleration. */
 static inline int32_t rf_slope_width(const rf_journals *journals)
 {
-    return 4 * journals->points + (journals->masses ? 2 : 0);
+    return 4 * journals->points + (journals->decays ? 1 : 0) + (journals->masses ? 2 : 0);
+}
+
+/* Forces of all journals, and rates of their temperatures. */
+static inline int32_t rf_force_count(const rf_journals *journals)
+{
+    return (journals->decays ? 3 : 2) * journals->count;
+}
+
+/* Motion and temperatures of all journals. */
+static inline int32_t rf_state_count(const rf_journals *journals)
+{
+    return (journals->decays ? 5 : 4) * journals->count;
 }
 
 /* Add the force of inertia -M a, of a mass (xx, xy, yy), and its slopes by x, y, vx, vy, rows `width` apart. */
@@ -44,9 +63,9 @@ static inline void rf_add_inertia(const double *mass, const double *slopes, cons
     }
 }
 
-/* Films' forces and springs (2 n) at one motion (4 n, and with added masses 2 n accelerations), and slopes by that
-   of the same journal (2 n x rf_slope_width); the most severe status. `turned` is the angle of the shaft, which
-   films without tilt find behind their state. Slopes by the speed go to `by_speed` (2 n) unless it is NULL. */
+/* Films' forces and springs (rf_force_count) at one motion (rf_state_count, and with added masses 2 n accelerations), and
+   slopes by that of the same journal (rf_force_count x rf_slope_width); the most severe status. `turned` is the angle of the shaft, which
+   films without tilt find behind their state. Slopes by the speed go to `by_speed` (as many as forces) unless it is NULL. */
 int rf_set_forces(const rf_journals *journals, const double *motion, double speed, double turned, double *force,
                   double *slope, double *by_speed);
 

@@ -15,14 +15,14 @@
 /* What Newton's method solves for at each node: the films' forces, and the acceleration of a motor. */
 static int32_t unknowns(const rf_march *march)
 {
-    return 2 * march->journals.count + (march->motor.torque ? 1 : 0);
+    return rf_force_count(&march->journals) + (march->motor.torque ? 1 : 0);
 }
 
 int rf_open_scratch(rf_scratch *at, const rf_march *march)
 {
     const size_t s = (size_t)march->scheme.stages, channels = (size_t)march->rotor.channels;
     const size_t rows = (size_t)march->rotor.rows, modes = (size_t)march->rotor.modes;
-    const size_t all = 2 * s * (size_t)march->journals.count, wide = (size_t)rf_slope_width(&march->journals);
+    const size_t all = s * (size_t)rf_force_count(&march->journals), wide = (size_t)rf_slope_width(&march->journals);
     const size_t each = (size_t)unknowns(march), size = s * each, driven = march->motor.torque ? size * s * rows : 0;
     const size_t drives = march->spin.matrix ? 2 * modes : 0;
     const size_t sizes[] = {s * channels, s * channels, channels, 2 * modes, s * rows, s * rows,  s * rows,
@@ -102,7 +102,7 @@ static void set_motion(const rf_march *march, const rf_step_table *table, rf_scr
 /* Films at the motion of all nodes. */
 static int set_node_forces(rf_march *march, rf_scratch *at)
 {
-    const int32_t rows = march->rotor.rows, forces = 2 * march->journals.count;
+    const int32_t rows = march->rotor.rows, forces = rf_force_count(&march->journals);
     const int32_t slopes = rf_slope_width(&march->journals) * forces;
     int worst = RF_OK;
     for (int32_t i = 0; i < march->scheme.stages; ++i) {
@@ -118,28 +118,38 @@ static int set_node_forces(rf_march *march, rf_scratch *at)
     return status > worst ? status : worst;
 }
 
-/* Number k of what the force of a journal changes with, among all rows: its motion, then its acceleration. */
+/* Number k of what the force of a journal changes with, among all rows: its motion, temperature, acceleration. */
 static int32_t row_of(const rf_march *march, int32_t journal, int32_t k)
 {
-    const int32_t own = 4 * march->journals.points;
-    return k < own ? own * journal + k : 4 * march->journals.count + 2 * journal + k - own;
+    const rf_journals *journals = &march->journals;
+    const int32_t own = 4 * journals->points, behind = own + (journals->decays ? 1 : 0);
+    if (k < behind)
+        return k < own ? own * journal + k : 4 * journals->count + journal;
+    return rf_state_count(journals) + 2 * journal + k - behind;
+}
+
+/* The journal of one of the forces of all, and of the rates of their temperatures behind them. */
+static int32_t journal_of(const rf_march *march, int32_t force)
+{
+    const int32_t forces = 2 * march->journals.count;
+    return force < forces ? force / (2 * march->journals.points) : force - forces;
 }
 
 /* Solve the linear equations of Newton's method for the unknowns at so many nodes; a status. */
 static int solve_equations(const rf_march *march, int32_t s, const double *by_channel, rf_scratch *at)
 {
     const int32_t channels = march->rotor.channels, rows = march->rotor.rows, width = rf_slope_width(&march->journals);
-    const int32_t forces = 2 * march->journals.count, own = 2 * march->journals.points;
+    const int32_t forces = rf_force_count(&march->journals);
     const int32_t each = unknowns(march), size = s * each, stride = each > forces ? each : channels;
     const double *gains = each > forces ? rf_set_driven_gain(march, s, by_channel, at) : by_channel;
     memset(at->matrix, 0, (size_t)size * (size_t)size * sizeof *at->matrix);
     for (int32_t of = 0; of < s * forces; ++of) {
-        const int32_t i = of / forces, r = of % forces, row = i * each + r;
+        const int32_t i = of / forces, r = of % forces, row = i * each + r, journal = journal_of(march, r);
         double *to = at->matrix + row * size;
         for (int32_t j = 0; j < s; ++j)
             for (int32_t k = 0; k < width; ++k) {
                 const double slope = at->slope[width * of + k];
-                const double *gain = gains + ((i * s + j) * rows + row_of(march, r / own, k)) * stride;
+                const double *gain = gains + ((i * s + j) * rows + row_of(march, journal, k)) * stride;
                 for (int32_t c = 0; c < each; ++c)
                     to[j * each + c] -= slope * gain[c];
             }
@@ -156,7 +166,7 @@ static int solve_equations(const rf_march *march, int32_t s, const double *by_ch
 static double take_forces(const rf_march *march, const rf_step_table *table, rf_scratch *at)
 {
     const int32_t s = march->scheme.stages, channels = march->rotor.channels, rows = march->rotor.rows;
-    const int32_t forces = 2 * march->journals.count, each = unknowns(march);
+    const int32_t forces = rf_force_count(&march->journals), each = unknowns(march);
     double *const before = at->motion, change = 0.0;
     for (int32_t j = 0; j < s; ++j)
         for (int32_t c = 0; c < each; ++c)
@@ -230,7 +240,7 @@ int rf_try_step(rf_march *march, const rf_step_table *table, double h, double la
     at->h = h;
     for (int32_t i = 0; i < s; ++i) {
         at->time[i] = fmin(march->time + h * march->scheme.nodes[i], last);
-        at->speed[i] = set_given(march, at->time[i], at->guess + i * channels + 2 * march->journals.count,
+        at->speed[i] = set_given(march, at->time[i], at->guess + i * channels + rf_force_count(&march->journals),
                                  at->turned + i);
     }
     for (int32_t m = 0; m < modes; ++m) {
@@ -246,7 +256,7 @@ int rf_try_step(rf_march *march, const rf_step_table *table, double h, double la
 
 void rf_add_direct(const rf_march *march, const double *forces, const double *drive, double *motion)
 {
-    const int32_t modes = march->rotor.modes, rows = march->rotor.rows, first = 4 * march->journals.count;
+    const int32_t modes = march->rotor.modes, rows = march->rotor.rows, first = rf_state_count(&march->journals);
     if (!march->rotor.direct)
         return;
     rf_add_product((size_t)rows, (size_t)march->rotor.channels, 1.0, march->rotor.direct, forces, motion);
@@ -260,7 +270,7 @@ void rf_add_direct(const rf_march *march, const double *forces, const double *dr
 /* Speed, angle and all that acts at the time of the march without films, in the first row of at->guess. */
 static void set_given_start(rf_march *march, rf_scratch *at)
 {
-    const int32_t forces = 2 * march->journals.count, channels = march->rotor.channels;
+    const int32_t forces = rf_force_count(&march->journals), channels = march->rotor.channels;
     at->h = 0.0;
     at->time[0] = march->time;
     memset(at->guess, 0, (size_t)channels * sizeof *at->guess);
@@ -275,7 +285,7 @@ static void set_given_start(rf_march *march, rf_scratch *at)
 /* The forces at the start, and the acceleration of a motor, from those at the accelerations without any of them. */
 static int share_acceleration(rf_march *march, rf_scratch *at)
 {
-    const int32_t forces = 2 * march->journals.count, last = march->rotor.channels - 1;
+    const int32_t forces = rf_force_count(&march->journals), last = march->rotor.channels - 1;
     int status = march->motor.torque ? rf_set_torques(march, 1, at) : RF_OK;
     if (status == RF_OK)
         status = solve_equations(march, 1, march->rotor.direct, at);
@@ -290,7 +300,7 @@ static int share_acceleration(rf_march *march, rf_scratch *at)
 
 int rf_set_start(rf_march *march, rf_scratch *at)
 {
-    const int32_t rows = march->rotor.rows, modes = march->rotor.modes, forces = 2 * march->journals.count;
+    const int32_t rows = march->rotor.rows, modes = march->rotor.modes, forces = rf_force_count(&march->journals);
     for (int32_t q = 0; q < rows; ++q) {
         const rf_complex *sense = march->rotor.sense + q * modes;
         double total = 0.0;

@@ -54,7 +54,7 @@ void rf_set_turn(const rf_march *march, const rf_scratch *at, double h, double s
 
 double rf_set_turns(const rf_march *march, rf_scratch *at)
 {
-    const int32_t channels = march->rotor.channels, forces = 2 * march->journals.count;
+    const int32_t channels = march->rotor.channels, forces = rf_force_count(&march->journals);
     double change = 0.0, turn[3];
     for (int32_t i = 0; i < march->scheme.stages; ++i) {
         double *row = at->guess + i * channels;
@@ -94,7 +94,7 @@ static void set_pair_slope(const rf_march *march, const rf_scratch *at, int32_t 
 
 const double *rf_set_driven_gain(const rf_march *march, int32_t nodes, const double *gain, rf_scratch *at)
 {
-    const int32_t rows = march->rotor.rows, channels = march->rotor.channels, forces = 2 * march->journals.count;
+    const int32_t rows = march->rotor.rows, channels = march->rotor.channels, forces = rf_force_count(&march->journals);
     const int32_t wide = forces + 1, block = rows * channels;
     for (int32_t k = 0; k < nodes; ++k) {
         double slope[2 * RF_MOST_NODES];
@@ -117,7 +117,7 @@ const double *rf_set_driven_gain(const rf_march *march, int32_t nodes, const dou
 void rf_add_motor_equations(const rf_march *march, int32_t nodes, const double *gain, rf_scratch *at)
 {
     const rf_motor *motor = &march->motor;
-    const int32_t rows = march->rotor.rows, channels = march->rotor.channels, forces = 2 * march->journals.count;
+    const int32_t rows = march->rotor.rows, channels = march->rotor.channels, forces = rf_force_count(&march->journals);
     const int32_t wide = forces + 1, size = nodes * wide;
     for (int32_t i = 0; i < nodes; ++i) {
         const double c = cos(at->turned[i]), s = sin(at->turned[i]), *moved = at->motion + (i + 1) * rows - 2;
