@@ -238,7 +238,7 @@ def test_every_public_class_has_a_name_of_its_own():
     classes = Counter(
         node.name
         for path in MODULES
-        for node in ast.parse(path.read_text(encoding="utf-8")).body
+        for node in parse(path).body
         if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
     )
     assert not {name for name, count in classes.items() if count > 1}

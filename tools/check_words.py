@@ -73,8 +73,15 @@ def words_of_code(source: str) -> Iterator[Piece]:
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
             yield from paragraphs(inspect.cleandoc(str(node.value.value)).splitlines(), node.lineno)
-        elif isinstance(node, ast.Call) and MESSENGER.search(ast.unparse(node.func).rpartition(".")[2]):
+        elif isinstance(node, ast.Call) and MESSENGER.search(called(node.func)):
             yield from ((item.lineno, plain(message(item)), False) for item in node.args)
+
+
+def called(node: ast.expr) -> str:
+    """Return the name of what is called, without that of its owner."""
+    if isinstance(node, ast.IfExp):
+        return called(node.orelse)
+    return node.attr if isinstance(node, ast.Attribute) else node.id if isinstance(node, ast.Name) else ""
 
 
 def message(node: ast.expr) -> str:

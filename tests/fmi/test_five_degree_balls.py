@@ -66,7 +66,7 @@ def test_forces_moments_and_derivatives_are_those_of_python(version, model, exch
         np.testing.assert_allclose(np.array(columns).T, expected, rtol=1e-10, atol=1e-8)
 
 
-@versions
+@pytest.mark.parametrize("version", [pytest.param("2.0", marks=pytest.mark.long), "3.0"])
 def test_it_is_native_by_default_and_passes_all_checks(version, tmp_path):
     path = export_fmu(MODELS["pair"], tmp_path / "b.fmu", version, start={"y": -2e-6, "speed": 300.0})
     assert [item.check for item in check_fmu(path) if item.passed is False] == []

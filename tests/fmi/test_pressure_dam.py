@@ -78,7 +78,7 @@ def test_a_rotor_in_pressure_dams_is_one_system(version, tmp_path):
     """The whole system in C: the FMU of rotor and bearing follows the motion in Python."""
     rotor = RigidRotor(mass=10.0, speed=300.0, unbalance=1e-4)
     system = mount(rotor, {"": DAM})
-    path = export_fmu(system, tmp_path / "system.fmu", version, component="system", stop_time=1e-3)
+    path = export_fmu(system, tmp_path / "system.fmu", version, component="system", stop_time=1e-4)
     ran = fmpy.simulate_fmu(
         str(path),
         fmi_type="CoSimulation",

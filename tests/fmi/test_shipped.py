@@ -41,8 +41,17 @@ def test_all_recipes_are_tested(shipped):
     assert list(shipped.RECIPES) == NAMES
 
 
-@pytest.mark.parametrize("version", ["2.0", "3.0"])
-@pytest.mark.parametrize("name", NAMES)
+SLOW = {"flexible_rotor", "bush", "worn_bush", "contact"}
+"""Recipes of which one version is built and checked in the quick suite."""
+
+
+@pytest.mark.parametrize(
+    ("name", "version"),
+    [
+        *((name, "2.0") for name in NAMES),
+        *(pytest.param(name, "3.0", marks=[pytest.mark.long] * (name in SLOW)) for name in NAMES),
+    ],
+)
 def test_an_fmu_follows_its_reference(shipped, built, name, version):
     path = built(name, version)
     assert validate_fmu(str(path)) == []

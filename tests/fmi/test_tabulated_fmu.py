@@ -50,7 +50,9 @@ def test_the_kernel_has_the_force_of_python(count, tmp_path):
             np.testing.assert_allclose(found, expected, rtol=1e-11, atol=1e-12 * np.abs(expected).max())
 
 
-@pytest.mark.parametrize(("version", "arrays"), [("2.0", False), ("3.0", False), ("3.0", True)])
+@pytest.mark.parametrize(
+    ("version", "arrays"), [("2.0", False), pytest.param("3.0", False, marks=pytest.mark.long), ("3.0", True)]
+)
 def test_an_fmu_passes_its_checks(version, arrays, tmp_path):
     path = export_fmu(TABLE, tmp_path / "t.fmu", version, component="t", start=START, arrays=arrays)
     assert validate_fmu(str(path)) == []

@@ -1,7 +1,6 @@
 /* Whatever a simulator does, an instance answers a status: no crash, no leak, no not-a-number with OK.
 
    stress TOKEN CALLS GOOD... -- BAD... -- MAYBE...
-   stress --loops GRID COUNT, see stress_loops.c
    Folders of resources that must open, must be refused with a message, and must do either. */
 #include <math.h>
 #include <stdarg.h>
@@ -305,13 +304,8 @@ static void crowd(const char *folder)
         fmi2FreeInstance(alive[k]);
 }
 
-/* Of stress_loops.c. */
-int stress_loops(const char *path, long count);
-
 int main(int argc, char **argv)
 {
-    if (argc == 4 && strcmp(argv[1], "--loops") == 0)
-        return stress_loops(argv[2], atol(argv[3]));
     const long calls = argc > 2 ? atol(argv[2]) : 0;
     int expected = 0; /* 0 must open, 1 must not, 2 may */
     token = argv[1];

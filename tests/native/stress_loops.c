@@ -1,5 +1,5 @@
 /* Whatever numbers a loop over films is given, it answers a status: no bad access, no leak, no not-a-number
-   with RF_OK. stress --loops GRID COUNT, GRID a file of numbers: length/diameter, flags, spans and grids. */
+   with RF_OK. stress_loops GRID COUNT, GRID a file of numbers: length/diameter, flags, spans and grids. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -337,12 +337,13 @@ static int plain(const void *of, const double *state, double *f, double *jacobia
     return rf_journal_at(of, state, f, jacobian);
 }
 
-int stress_loops(const char *path, long count)
+int main(int argc, char **argv)
 {
+    const long count = argc > 2 ? atol(argv[2]) : 0;
     rf_ring ring = {0};
     const rf_short thin = {1.44};
     const double none[8] = {0.0};
-    read_ring(path, &ring);
+    read_ring(argv[1], &ring);
     const rf_journal journal = {rf_short_film, &thin, 1e-4, 0.4, 0.0, 0}, round = {rf_ring_film, &ring, 1e-4, 0.4, 0.0, 0};
     const rf_sprung sprung = {plain, &journal, 1e6, 1};
     for (long n = 0; n < count; ++n) {

@@ -1,6 +1,7 @@
 """A new quantity is a row and its meaning, a new effect a file and its line, in a copy of the package."""
 
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -84,6 +85,7 @@ def asked(home):
         capture_output=True,
         text=True,
         check=False,
+        env={**os.environ, "PYTHONDONTWRITEBYTECODE": ""},  # the next one imports what this one compiled
     )
     assert not done.returncode, done.stderr
     return json.loads(done.stdout.splitlines()[-1])
@@ -93,7 +95,7 @@ def asked(home):
 def copy(tmp_path_factory):
     """Return a copy of the package with the quantity of the guide."""
     made = tmp_path_factory.mktemp("copy") / "rotorfilm"
-    shutil.copytree(PACKAGE, made, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(PACKAGE, made)
     insert(made / "questions" / "quantities.py", "\nQUANTITIES = {\n", shown("A new quantity"))
     insert(
         made / "scenes" / "quantities.toml", "docs/questions.md.\n\n", 'loss_per_flow = "of a film [J/m^3]"\n'
@@ -101,15 +103,20 @@ def copy(tmp_path_factory):
     return made
 
 
-def test_a_quantity_is_a_row_that_every_bearing_with_a_film_answers(copy):
-    for answer in asked(copy.parent).values():
+@pytest.fixture(scope="module")
+def before(copy):
+    """Return what that copy says before it has the effect."""
+    return asked(copy.parent)
+
+
+def test_a_quantity_is_a_row_that_every_bearing_with_a_film_answers(before):
+    for answer in before.values():
         assert answer["met"]
         assert answer["unit"] == "J/m^3"
         assert answer["value"] == pytest.approx(answer["truth"], rel=0.1)
 
 
-def test_an_effect_is_a_file_and_a_line_that_every_question_counts(copy):
-    before = asked(copy.parent)
+def test_an_effect_is_a_file_and_a_line_that_every_question_counts(copy, before):
     path = copy / "questions" / "viscosity.py"
     path.write_text(EFFECT + shown("A new effect"), encoding="utf-8")
     home = copy / "questions" / "film_statics.py"

@@ -89,7 +89,7 @@ def answered(tmp_path_factory):
     """Return what a copy of the package with a sleeve says of a scene with one, and the lines it took."""
     home = tmp_path_factory.mktemp("copy")
     copy = home / "rotorfilm"
-    shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(PACKAGE, copy)
     shutil.copytree(FOLDER, copy / "bearings" / "sleeve", ignore=shutil.ignore_patterns("__pycache__"))
     listed = copy / "scenes" / "families.py"
     before = listed.read_text(encoding="utf-8")

@@ -18,6 +18,7 @@ from rotorfilm.cli.demo_command import print_demo
 from rotorfilm.cli.main import main
 from rotorfilm.scenes import demo as demo_module
 from rotorfilm.scenes.demo import plain_results, run_demo, running_bearing
+from rotorfilm.studies import study
 
 FILES = {
     "film.fmu",
@@ -61,6 +62,10 @@ def whole(scene, tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(scenes, "bundled_scene", lambda: scene)
         patch.setattr(demo_module, "run_demo", recorded)
+        # No test reads the costs of the films, and few states give their errors.
+        patch.setattr(demo_module, "STATES", 20)
+        patch.setattr(demo_module, "ROUNDS", 1)
+        patch.setattr(study, "SHORTEST_RUN", 1e-4)
         with (
             redirect_stdout(StringIO()) as out,
             redirect_stderr(StringIO()) as err,
