@@ -1,8 +1,17 @@
 """A journal as FMUs see it: its inputs, its outputs, and motions of it."""
 
 import numpy as np
+import pytest
 
 INPUTS, FORCES = ("x", "y", "vx", "vy", "speed"), ("force_x", "force_y")
+
+OTHERS = [pytest.param(*pair, marks=pytest.mark.long) for pair in (("2.0", False), ("3.0", True))]
+version_and_kind = pytest.mark.parametrize(
+    ("version", "exchange"),
+    [("2.0", True), ("3.0", False), *OTHERS],
+    ids=["2.0-ME", "3.0-CS", "2.0-CS", "3.0-ME"],
+)
+"""Each version of FMI and each kind of FMU once; the other pairs are for long runs."""
 
 
 def motions(count, largest):

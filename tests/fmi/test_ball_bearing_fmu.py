@@ -12,6 +12,8 @@ from rotorfilm.bearings import RaceControl
 from rotorfilm.fmu import check_fmu
 from rotorfilm.fmu.export import start_values
 
+from .journals import version_and_kind
+
 ONE = BallBearing(
     balls=11,
     ball_diameter=7.938e-3,
@@ -35,9 +37,8 @@ def motions(count):
 
 
 @pytest.mark.filterwarnings("ignore:the gyroscopic moment")
-@versions
+@version_and_kind
 @pytest.mark.parametrize("model", [ONE, DEEP, PAIR], ids=["thrust", "deep groove", "pair"])
-@pytest.mark.parametrize("exchange", [False, True], ids=["CS", "ME"])
 def test_forces_and_derivatives_are_those_of_python(version, model, exchange, opened):
     instance, reference = opened(model, version, exchange)
     inputs, outputs = [reference[name] for name in INPUTS], [reference[name] for name in FORCES]

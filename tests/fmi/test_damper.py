@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from itertools import cycle
 
 import fmpy
 import numpy as np
@@ -27,6 +28,8 @@ from rotorfilm import (
 from rotorfilm.bearings import AxialFeed, EndSeal, HalfSommerfeld, MapSqueeze, ShortSqueeze
 from rotorfilm.fmu import check_fmu
 from rotorfilm.fmu.python.codec import class_modules, decode, encode
+
+from .journals import version_and_kind
 
 CAGE = PorousCage(thickness=2.5e-3, permeability=4e-13, grading=0.1)
 DAMPER = PorousDamper(
@@ -81,8 +84,7 @@ def motions(count, largest=0.97):
 
 
 @models
-@versions
-@pytest.mark.parametrize("exchange", [False, True], ids=["CS", "ME"])
+@version_and_kind
 def test_forces_and_derivatives_are_those_of_python(model, version, exchange, opened):
     instance, reference = opened(model, version, exchange)
     inputs, outputs = [reference[name] for name in MOTION], [reference[name] for name in FORCES]
@@ -105,10 +107,15 @@ def test_forces_and_derivatives_are_those_of_python(model, version, exchange, op
             )
 
 
-@models
-@versions
-def test_a_damper_with_a_map_is_native_by_default_and_passes_all_checks(model, version, tmp_path):
-    path = export_fmu(model, tmp_path / "d.fmu", version, start={"x": 3e-5, "vy": 0.02})
+@pytest.mark.parametrize(
+    ("name", "version"),
+    [
+        *zip(MODELS, cycle(VERSIONS)),
+        *(pytest.param(*other, marks=pytest.mark.long) for other in zip(MODELS, cycle(VERSIONS[::-1]))),
+    ],
+)
+def test_a_damper_with_a_map_is_native_by_default_and_passes_all_checks(name, version, tmp_path):
+    path = export_fmu(MODELS[name], tmp_path / "d.fmu", version, start={"x": 3e-5, "vy": 0.02})
     assert [item.check for item in check_fmu(path) if item.passed is False] == []
     names = {
         variable.name.partition(".")[2] for variable in fmpy.read_model_description(str(path)).modelVariables

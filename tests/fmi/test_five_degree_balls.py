@@ -18,6 +18,8 @@ from rotorfilm.core import names
 from rotorfilm.fmu import check_fmu
 from rotorfilm.native import FOLDER
 
+from .journals import version_and_kind
+
 HOST = Path(__file__).parents[2] / "benchmarks" / "step_host.c"
 ONE = BallBearing(
     balls=9,
@@ -36,7 +38,6 @@ def five_degrees(bearing):
 
 MODELS = {"wavy": five_degrees(replace(ONE, tilt=(1e-4, 0.0))), "pair": five_degrees(PAIR)}
 INPUTS, OUTPUTS = (names(getattr(MODELS["pair"], kind)) for kind in ("inputs", "outputs"))
-versions = pytest.mark.parametrize("version", ["2.0", "3.0"])
 
 
 def motions(count):
@@ -44,9 +45,8 @@ def motions(count):
     return np.random.default_rng(3).uniform(-1.0, 1.0, (count, 11)) * scale + [0.0, 0.0, 6e-6, *[0.0] * 8]
 
 
-@versions
+@version_and_kind
 @pytest.mark.parametrize("model", MODELS.values(), ids=MODELS)
-@pytest.mark.parametrize("exchange", [False, True], ids=["CS", "ME"])
 def test_forces_moments_and_derivatives_are_those_of_python(version, model, exchange, opened):
     instance, reference = opened(model, version, exchange)
     inputs, outputs = [reference[name] for name in INPUTS], [reference[name] for name in OUTPUTS]

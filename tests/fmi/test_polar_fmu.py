@@ -22,6 +22,8 @@ from rotorfilm.bearings.journal import FixedArc, RotatingArc, SplittingFilm
 from rotorfilm.fmu import check_fmu
 from rotorfilm.native import NativeSpec
 
+from .journals import version_and_kind
+
 JOURNAL = JournalBearing(
     radius=0.05, length=0.03, clearance=1e-4, viscosity=0.02, film=SplittingFilm(order=(2, None))
 )
@@ -81,7 +83,7 @@ def compare(opened, model, version, exchange, names, largest, tolerance):
 
 
 @pytest.mark.parametrize("model", JOURNALS.values(), ids=JOURNALS)
-@pytest.mark.parametrize(("version", "exchange"), [("2.0", True), ("3.0", False)], ids=["ME", "CS"])
+@version_and_kind
 def test_a_splitting_film_on_a_fixed_arc_has_the_forces_of_python(model, version, exchange, opened):
     compare(opened, model, version, exchange, JOURNAL_INPUTS, 0.998, 1e-11)
 

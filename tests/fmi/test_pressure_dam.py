@@ -10,7 +10,7 @@ from fmpy.fmi1 import FMICallException
 from rotorfilm import PressureDamBearing, RigidRotor, export_fmu, mount, pressure_dam_pads, simulate
 from rotorfilm.fmu import check_fmu
 
-from .journals import FORCES, INPUTS, motions
+from .journals import FORCES, INPUTS, motions, version_and_kind
 
 DAM = PressureDamBearing(
     radius=0.05,
@@ -25,9 +25,8 @@ DAM = PressureDamBearing(
 versions = pytest.mark.parametrize("version", ["2.0", "3.0"])
 
 
-@versions
+@version_and_kind
 @pytest.mark.parametrize("extrapolated", [False, True])
-@pytest.mark.parametrize("exchange", [False, True], ids=["CS", "ME"])
 def test_forces_and_derivatives_are_those_of_python(version, extrapolated, exchange, same_as_python):
     model = replace(DAM, extrapolated=extrapolated)
     same_as_python(model, version, exchange, motions(6, 0.9), rtol=1e-14)

@@ -12,6 +12,8 @@ from rotorfilm import export_fmu
 from rotorfilm.bearings import ThrustBearing, TiltingThrustBearing
 from rotorfilm.fmu import check_fmu
 
+from .journals import version_and_kind
+
 SIZES = {"inner_radius": 0.025, "outer_radius": 0.05, "viscosity": 0.03, "gap": 5e-5, "cells": (16, 8)}
 FIXED = ThrustBearing(pads=6, pad_arc=math.radians(50.0), taper_depth=4e-5, **SIZES)
 BACK = ThrustBearing(pads=6, pad_arc=math.radians(50.0), step_depth=4e-5, side=-1, **SIZES)
@@ -30,8 +32,7 @@ AT = np.array([4e-6, 1e-4, -5e-5, 1e-3, 0.02, -0.01, 300.0])
 versions = pytest.mark.parametrize("version", ["2.0", "3.0"])
 
 
-@versions
-@pytest.mark.parametrize("exchange", [False, True], ids=["CS", "ME"])
+@version_and_kind
 @pytest.mark.parametrize("name", MODELS)
 def test_forces_tilts_and_derivatives_are_those_of_python(name, version, exchange, opened):
     model = MODELS[name]

@@ -137,7 +137,7 @@ def test_a_critical_speed_within_a_small_jump_is_found_to_a_part_of_a_step(befor
 
 
 @pytest.mark.closed_form
-@pytest.mark.parametrize("size", [0.03, 0.2, 0.7])
+@pytest.mark.parametrize("size", [0.03, pytest.param(0.2, marks=pytest.mark.long), 0.7])
 def test_a_jump_at_a_given_speed_hides_no_critical_speed(size):
     grid = np.linspace(95.0, 106.0, 8)
     for at in grid[1:-1]:

@@ -82,8 +82,15 @@ def compare(client, model, x, u, tolerance=1e-12):
     np.testing.assert_allclose(np.array(found).T / scale, exact / scale, rtol=0, atol=tolerance)
 
 
-@pytest.mark.parametrize("kind", [FMU2Model, FMU3Model])
-@pytest.mark.parametrize("balance", [ContactBalance(), GlobalBalance()])
+@pytest.mark.parametrize(
+    ("kind", "balance"),
+    [
+        (FMU2Model, ContactBalance()),
+        (FMU3Model, GlobalBalance()),
+        pytest.param(FMU3Model, ContactBalance(), marks=pytest.mark.long),
+        pytest.param(FMU2Model, GlobalBalance(), marks=pytest.mark.long),
+    ],
+)
 @pytest.mark.parametrize("friction", FRICTIONS)
 def test_one_state_is_that_of_python(unzipped, kind, balance, friction):
     model = replace(WEAR, bush=replace(BUSH, friction=friction, balance=balance))
@@ -204,12 +211,19 @@ def test_a_step_below_the_critical_speed_wears_nothing(unzipped):
     assert client.get("temperature")[0] < 250.0
 
 
-@pytest.mark.parametrize("kind", [FMU2Slave, FMU3Slave])
+@pytest.mark.parametrize(
+    ("kind", "extent"),
+    [
+        (FMU2Slave, 1.6),
+        (FMU3Slave, 2.0 * math.pi),
+        pytest.param(FMU3Slave, 1.6, marks=pytest.mark.long),
+        pytest.param(FMU2Slave, 2.0 * math.pi, marks=pytest.mark.long),
+    ],
+)
 @pytest.mark.parametrize(
     ("melting", "tolerance"), [(SharedMelting(), 1e-7), (LocalMelting(), 1e-5)], ids=["shared", "local"]
 )
 @pytest.mark.parametrize(("speed", "duration", "steps"), [(12.0, 0.02, 10), (400.0, 0.02, 2)])
-@pytest.mark.parametrize("extent", [1.6, 2.0 * math.pi])
 def test_steps_of_the_profile_follow_an_accurate_solution(
     unzipped, kind, melting, tolerance, speed, duration, steps, extent
 ):

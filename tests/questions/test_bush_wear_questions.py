@@ -23,9 +23,8 @@ SUBSET = [
     ("bush speed", 3),
     ("bush wear", 1),
     ("bush wear", 3),
-    ("bush wear", 4),
     ("bush wear", 6),
-    ("bush wear", 8),
+    *(pytest.param("bush wear", seed, marks=pytest.mark.long) for seed in (4, 8)),
 ]
 ONSET = 3.986708
 """Critical speed of the unworn bush of the source under 3750 N, exact flux: docs/bush.md."""

@@ -307,7 +307,10 @@ tolerance = 0.2
 
 @pytest.mark.parametrize(
     "quantity",
-    ["critical_speed", pytest.param("whirl_threshold", marks=pytest.mark.long), "unbalance_amplitude"],
+    [
+        *(pytest.param(name, marks=pytest.mark.long) for name in ("critical_speed", "whirl_threshold")),
+        "unbalance_amplitude",
+    ],
 )
 def test_shaft_on_an_oil_is_answered_at_its_temperatures(quantity):
     def asked(oil, viscosity=""):

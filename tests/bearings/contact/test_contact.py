@@ -181,7 +181,7 @@ def test_scheme_damps_as_its_amplification_says(coarse, resting, natural, step, 
         z = 1.0 / (2.0 - np.sqrt(1.0 + 2.0 * s * step))
     start = perturbed(coarse, resting, -1e-3)
     run = coarse.simulate(
-        start, duration=16.0, W=1.0, control=FixedSteps(step=step, order=order, tolerance=1e-9)
+        start, duration=12.0, W=1.0, control=FixedSteps(step=step, order=order, tolerance=1e-9)
     )
     rate = _decay(run.time, run.delta - resting.delta)
     assert rate == pytest.approx(-np.log(abs(z)) / step, rel=0.02)

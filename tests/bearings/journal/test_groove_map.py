@@ -232,7 +232,7 @@ def test_groove_where_there_is_no_pressure_changes_nothing():
         assert np.hypot(*(film.force(-e, -w, 0.5) + plain)) > 0.02 * np.hypot(*plain)
 
 
-@pytest.mark.parametrize("width", [0.0, 5.0, 40.0])
+@pytest.mark.parametrize("width", [0.0, pytest.param(5.0, marks=pytest.mark.long), 40.0])
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_every_direction_finds_a_film_that_carries(count, width):
     grooves = tuple(Groove(center=2.0 * np.pi * k / count, width=np.radians(width)) for k in range(count))

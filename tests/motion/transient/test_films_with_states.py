@@ -377,7 +377,7 @@ def test_python_control_has_the_state_space(kind, shape):
 @cells("Jeffcott", "flexible")
 def test_an_fmu_of_both_has_the_motion_of_the_model(kind, shape, tmp_path):
     _, films, mounted, _ = resting(kind, shape)
-    path = export_fmu(mounted, tmp_path / "both.fmu", "2.0")
+    path = export_fmu(mounted, tmp_path / "both.fmu", "2.0", stop_time=END)
     told = fmpy.simulate_fmu(str(path), stop_time=END, output_interval=END, step_size=END)
     run = simulate(mounted.rotor, films, duration=END, samples=2)
     for name in (signal.name for signal in mounted.rotor.outputs):
