@@ -52,9 +52,15 @@ class Walled:
 '''
 
 
+@pytest.fixture(scope="module")
+def film_path(tmp_path_factory):
+    path = tmp_path_factory.mktemp("film") / "film.fmu"
+    return export_fmu(BEARING, path, backend="python", component="bearing")
+
+
 @pytest.fixture
-def film(load, tmp_path):
-    instance = load(export_fmu(BEARING, tmp_path / "film.fmu", backend="python", component="bearing"))
+def film(load, film_path):
+    instance = load(film_path)
     instance.initialize(INSIDE)
     return instance
 
@@ -92,8 +98,8 @@ def test_a_step_at_the_wall_is_an_error_too(film):
     assert "bearing.x = 0.00012" in film.log[-1][1]
 
 
-def test_a_start_at_the_wall_is_an_error(load, tmp_path):
-    film = load(export_fmu(BEARING, tmp_path / "film.fmu", backend="python", component="bearing"))
+def test_a_start_at_the_wall_is_an_error(load, film_path):
+    film = load(film_path)
     assert status(film.initialize, {"bearing.y": -1e-4}) == fmi2Fatal
 
 
@@ -129,8 +135,8 @@ def test_a_saved_state_revives_a_failed_instance(film):
     film.fmu.freeFMUstate(saved)
 
 
-def test_other_instances_go_on(film, load, tmp_path):
-    other = load(tmp_path / "film.fmu")
+def test_other_instances_go_on(film, load, film_path):
+    other = load(film_path)
     other.initialize(INSIDE)
     film.set({"bearing.x": 1.2e-4})
     status(film.get, *FORCES)

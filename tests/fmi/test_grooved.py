@@ -20,7 +20,7 @@ DIMENSIONS = {"radius": 0.05, "clearance": 1e-4, "viscosity": 0.03}
 COARSE = GroovedMapFilm(cells=(32, 4), nodes=(6, 12, 12), largest_eccentricity_ratio=0.9)
 GROOVES = (Groove(center=0.3, width=0.35), Groove(center=3.4, width=0.3))
 INPUTS = ["x", "y", "vx", "vy", "speed"]
-KINDS = [("native", "2.0"), ("native", "3.0"), ("python", "2.0")]
+LONG = pytest.mark.long
 
 ALONE = '''
 """Run an FMU where there is no rotorfilm and nothing kept on disk."""
@@ -111,13 +111,19 @@ def require_forces_of(bearing, path, folder):
     assert len(np.unique(found[:, 0])) > 6
 
 
-@pytest.mark.parametrize(("backend", "version"), KINDS)
+@pytest.mark.parametrize(
+    ("backend", "version"),
+    [pytest.param("native", "2.0", marks=LONG), ("native", "3.0"), ("python", "2.0")],
+)
 def test_a_grooved_bearing_runs_alone(backend, version, grooved, tmp_path):
     path = export_fmu(grooved, tmp_path / "b.fmu", version, backend, component="b")
     require_forces_of(grooved, path, tmp_path)
 
 
-@pytest.mark.parametrize(("backend", "version"), KINDS)
+@pytest.mark.parametrize(
+    ("backend", "version"),
+    [("native", "2.0"), pytest.param("native", "3.0", marks=LONG), ("python", "2.0")],
+)
 def test_a_very_short_bearing_runs_alone(backend, version, very_short, tmp_path):
     path = export_fmu(very_short, tmp_path / "b.fmu", version, backend, component="b")
     require_forces_of(very_short, path, tmp_path)

@@ -31,6 +31,17 @@ ROTORS = {
 }
 
 
+@pytest.fixture(scope="module")
+def bearing_fmu(tmp_path_factory):
+    path = tmp_path_factory.mktemp("bearing") / "a.fmu"
+    return export_fmu(BEARING, path, backend="python", component="bearing")
+
+
+@pytest.fixture(scope="module")
+def rotor_fmu(tmp_path_factory):
+    return export_fmu(ROTOR, tmp_path_factory.mktemp("rotor") / "a.fmu", backend="python", component="rotor")
+
+
 def random_states(count):
     """Return states inside the clearance, shape (count, 5)."""
     generator = np.random.default_rng(7)
@@ -59,9 +70,9 @@ def test_the_force_is_that_of_a_direct_call(bearing, load, tmp_path):
         np.testing.assert_allclose(fmu.get(*FORCES), bearing.output(0.0, (), state), rtol=1e-12)
 
 
-def test_outputs_are_valid_at_the_start(load, tmp_path):
+def test_outputs_are_valid_at_the_start(load, bearing_fmu):
     state = random_states(1)[0]
-    fmu = load(export_fmu(BEARING, tmp_path / "a.fmu", backend="python", component="bearing"))
+    fmu = load(bearing_fmu)
     fmu.initialize(dict(zip(INPUTS, state, strict=True)))
     np.testing.assert_allclose(fmu.get(*FORCES), BEARING.output(0.0, (), state), rtol=1e-12)
 
@@ -75,9 +86,9 @@ def test_start_values_hold_without_being_set(load, tmp_path):
     np.testing.assert_allclose(fmu.get(*FORCES), BEARING.output(0.0, (), state), rtol=1e-12)
 
 
-def test_outputs_follow_one_input_without_a_step(load, tmp_path):
+def test_outputs_follow_one_input_without_a_step(load, bearing_fmu):
     first, second = random_states(2)
-    fmu = load(export_fmu(BEARING, tmp_path / "a.fmu", backend="python", component="bearing"))
+    fmu = load(bearing_fmu)
     fmu.initialize(dict(zip(INPUTS, first, strict=True)))
     fmu.get(*FORCES)
     fmu.set({"bearing.speed": second[4]})
@@ -86,9 +97,9 @@ def test_outputs_follow_one_input_without_a_step(load, tmp_path):
 
 @pytest.mark.closed_form
 @pytest.mark.parametrize("steps", [1, 7, 100])
-def test_the_rotor_moves_as_its_closed_form(steps, load, tmp_path):
+def test_the_rotor_moves_as_its_closed_form(steps, load, rotor_fmu):
     force, duration = np.array([20.0, -30.0]), 0.05
-    fmu = load(export_fmu(ROTOR, tmp_path / "a.fmu", backend="python", component="rotor"))
+    fmu = load(rotor_fmu)
     fmu.initialize({"rotor.force_x": force[0], "rotor.force_y": force[1]})
     for k in range(steps):
         fmu.fmu.doStep(k * duration / steps, duration / steps)
@@ -109,14 +120,14 @@ def test_the_rotor_answers_as_a_direct_call_at_the_start(rotor, load, tmp_path):
         np.testing.assert_allclose(fmu.get(*MOTION, "rotor.speed"), expected, rtol=1e-12)
 
 
-def test_the_rotor_starts_where_it_is_put(load, tmp_path):
-    fmu = load(export_fmu(ROTOR, tmp_path / "a.fmu", backend="python", component="rotor"))
+def test_the_rotor_starts_where_it_is_put(load, rotor_fmu):
+    fmu = load(rotor_fmu)
     fmu.initialize({"rotor.state_x": 2e-5, "rotor.state_vy": -1e-3})
     assert fmu.get(*MOTION, "rotor.speed") == [2e-5, 0.0, 0.0, -1e-3, SPEED]
 
 
-def test_the_rotor_knows_the_start_time(load, tmp_path):
-    fmu = load(export_fmu(ROTOR, tmp_path / "a.fmu", backend="python", component="rotor"))
+def test_the_rotor_knows_the_start_time(load, rotor_fmu):
+    fmu = load(rotor_fmu)
     fmu.initialize(time=0.012)
     fmu.fmu.doStep(0.012, 1e-6)
     phase = SPEED * (0.012 + 0.5e-6)

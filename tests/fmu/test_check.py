@@ -2,6 +2,7 @@
 
 import os
 import re
+import shutil
 import struct
 import subprocess
 import sys
@@ -24,9 +25,15 @@ BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1
 STATE = {"x": 3e-5, "y": -4e-5, "speed": 157.0}
 
 
-@pytest.fixture(params=["2.0", "3.0"])
-def path(request, tmp_path):
-    return export_fmu(BEARING, tmp_path / "film.fmu", request.param, component="film", start=STATE)
+@pytest.fixture(scope="module", params=["2.0", "3.0"])
+def exported(request, tmp_path_factory):
+    path = tmp_path_factory.mktemp("exported") / "film.fmu"
+    return export_fmu(BEARING, path, request.param, component="film", start=STATE)
+
+
+@pytest.fixture
+def path(exported, tmp_path):
+    return Path(shutil.copy(exported, tmp_path / "film.fmu"))
 
 
 def changed(path, name, change):

@@ -136,7 +136,7 @@ import rotorfilm.sweeps.sweep_run as workers
 from rotorfilm import sweep
 solve = workers.solve_point
 def slow(*arguments):
-    time.sleep(0.2)
+    time.sleep(0.1)
     return solve(*arguments)
 workers.solve_point = slow
 sweep(json.loads(sys.argv[1]), json.loads(sys.argv[2]), path=sys.argv[3], workers=1)
@@ -151,7 +151,7 @@ def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
     # Not from the checkout, whose package would hide the installed one.
     running = subprocess.Popen([sys.executable, "-c", SLOW, *arguments], cwd=tmp_path)
     deadline = time.monotonic() + 120.0
-    while not (waiting.is_file() and waiting.read_bytes().count(b"\n") > 10):
+    while not (waiting.is_file() and waiting.read_bytes().count(b"\n") > 5):
         assert running.poll() is None, "the sweep ended before it could be killed"
         assert time.monotonic() < deadline
         time.sleep(0.05)
@@ -162,7 +162,7 @@ def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
     assert not out.exists()
     done = []
     found = sweep(SCENE, axes, path=out, workers=1, report=lambda fraction, text: done.append(fraction))
-    assert 0 < len(done) < 31
+    assert 0 < len(done) < 36
     assert not waiting.exists()
     xarray.testing.assert_identical(found, sweep(SCENE, axes, workers=1))
 
