@@ -54,7 +54,7 @@ def test_estimate_is_within_a_factor_of_two_and_the_tolerance_is_met(family, see
     assert first.verdict != "chosen" or first.met, first
 
 
-@pytest.mark.parametrize("melting", ["shared", "local"])
+@pytest.mark.parametrize("melting", ["shared", pytest.param("local", marks=pytest.mark.long)])
 def test_tighter_tolerance_never_selects_a_less_accurate_rung(melting):
     names = [rung.name for rung in ladder_of(scene(bush={"melting": melting})).rungs]
     answers = [scene(tolerance, bush={"melting": melting}).ask() for tolerance in (0.5, 0.05, 0.005)]

@@ -217,8 +217,8 @@ def test_whirl_threshold_is_within_its_tolerance(table):
     ("quantity", "rotor", "excitation"),
     [
         ("unbalance_amplitude", UNBALANCE, ""),
-        ("unbalance_phase", UNBALANCE, ""),
-        ("unbalance_force", UNBALANCE, ""),
+        pytest.param("unbalance_phase", UNBALANCE, "", marks=pytest.mark.long),
+        pytest.param("unbalance_force", UNBALANCE, "", marks=pytest.mark.long),
         pytest.param("peak_displacement", "", LOST_BLADE, marks=pytest.mark.long),
     ],
 )

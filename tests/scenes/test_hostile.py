@@ -101,7 +101,7 @@ def test_extreme_values_at_every_key_are_read_or_named(key):
         assert not bad_refusal(replaced(SCENES[name], place, value))
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(where=st.sampled_from(PLACES), value=VALUES)
 def test_any_value_at_any_key_is_read_or_named(where, value):
     name, place = where

@@ -77,7 +77,7 @@ def test_position_at_the_wall_is_contact(film, chi):
 
 @films
 def test_jacobian_equals_differences_of_fourth_order(film):
-    e, w = random_states(12, largest=0.8)
+    e, w = random_states(6, largest=0.8)
     z, h = np.concatenate([e, w]), 1e-4
 
     def force(states):
@@ -94,7 +94,7 @@ def test_jacobian_equals_differences_of_fourth_order(film):
 
 
 @films
-@settings(deadline=None, max_examples=20)
+@settings(deadline=None, max_examples=10)
 @given(state=states, turn=angle)
 def test_rotation_invariance(film, state, turn):
     e, w = vectors(*state)
@@ -104,7 +104,7 @@ def test_rotation_invariance(film, state, turn):
 
 
 @pytest.mark.parametrize("film", ROTATING.values(), ids=ROTATING.keys())
-@settings(deadline=None, max_examples=20)
+@settings(deadline=None, max_examples=10)
 @given(state=states)
 def test_mirror_symmetry_of_films_without_a_fixed_arc(film, state):
     e, w = vectors(*state)
@@ -116,7 +116,7 @@ def test_mirror_symmetry_of_films_without_a_fixed_arc(film, state):
 
 
 @films
-@settings(deadline=None, max_examples=20)
+@settings(deadline=None, max_examples=10)
 @given(state=states, factor=st.floats(1e-3, 1e3))
 def test_positive_homogeneity_in_the_source(film, state, factor):
     e, w = vectors(*state)

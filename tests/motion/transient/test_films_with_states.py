@@ -259,7 +259,7 @@ def exact(mounted, start, push, times):
     return found.y.T
 
 
-@cells(("warm lobes", "flexible"), ("worn bush", "flexible"))
+@cells(("warm lobes", "flexible"), ("worn bush", "flexible"), ("pads in a support with memory", "flexible"))
 def test_a_transient_is_that_of_the_state_space(kind, shape):
     """After a push so small that motion about a rest stays linear."""
     _, films, mounted, x = resting(kind, shape)
@@ -281,7 +281,13 @@ def test_a_transient_is_that_of_the_state_space(kind, shape):
         assert run[name] == pytest.approx(row, abs=LINEAR * size + 1e-9 * np.abs(row).max()), name
 
 
-@cells("Jeffcott", ("warm lobes", "flexible"), ("warm journal", "flexible"), without=NO_REST)
+@cells(
+    "Jeffcott",
+    ("warm lobes", "flexible"),
+    ("warm journal", "flexible"),
+    ("pads in a support with memory", "flexible"),
+    without=NO_REST,
+)
 def test_a_small_orbit_is_that_of_the_state_space(kind, shape):
     rotor, films, mounted, x = resting(kind, shape)
     turning, _ = placed(kind, shape, unbalance=1e-6)
