@@ -87,7 +87,8 @@ def simulate(
     times : array_like, shape (n,) [s], optional
         Increasing sample times within [0, duration], instead of `samples`.
     initial_state : array_like, shape (n_states,), optional
-        State at t = 0, instead of the models' own: that of the rotor, then that of a film with states.
+        State at t = 0, instead of the models' own: that of the rotor, then that of a film with states. A
+        rotor starts with its journals in the centers of their bearings, unless it has `initial` coordinates.
     rtol : float [1]
         Relative local error of a step; the absolute one is rtol times the nominal value of each state. For
         mass-conserving films `max_step` sets the accuracy instead, and `Trajectory.step_error` estimates it.
@@ -121,6 +122,12 @@ def simulate(
     -----
     ValidityWarning
         If a film gets thinner than 0.1 um, where real surfaces touch, or a journal goes beyond its map.
+
+    Notes
+    -----
+    To start a shaft in its equilibrium, let `at = rotor_equilibrium(rotor, bearings, speed)` with the speed
+    at t = 0, and take `replace(rotor, initial=(*at.displacement, *0.0 * at.displacement))` for the rotor, and
+    `bearing.in_time(at.temperatures[name])` for bearings whose oil warms.
     """
     require_duration(rotor, duration)
     require_positive("rtol", rtol)

@@ -195,11 +195,15 @@ class BalancedKernel:
         status = self._at(self._reference, state, pair, ten, byref(temperature))
         return pair[0], pair[1], ten[:], temperature.value, status
 
-    def heat_slopes(self, state: list[float]) -> tuple[Array, int]:
-        """Return d(power, effective flow, side flow)/d state at unit viscosity, (3, 5), and a status."""
+    def heat(self, state: list[float]) -> tuple[Any, int]:
+        """Return an rf_heat at x, y, vx, vy, speed, which is at unit viscosity, and a status."""
+        heat = structure("rf_heat")()
+        return heat, self._heat(self._reference, _Five(*state), byref(heat), None)
+
+    def heat_slopes(self, state: list[float]) -> tuple[Any, Any, int]:
+        """Return an rf_heat and its rf_heat_slopes at unit viscosity, and a status."""
         heat, slopes = structure("rf_heat")(), structure("rf_heat_slopes")()
-        status = self._heat(self._reference, _Five(*state), byref(heat), byref(slopes))
-        return np.array([slopes.drag, slopes.flow, slopes.leak]), status
+        return heat, slopes, self._heat(self._reference, _Five(*state), byref(heat), byref(slopes))
 
     def batch(self, states: Array, *, slopes: bool = True) -> BalancedBatch:
         """Return forces, temperatures and Jacobians of states x, y, vx, vy, speed, shape (5, n)."""

@@ -122,7 +122,8 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
     Notes
     -----
     A contact ends the run and is no error. Samples are 24 in a turn at the highest speed, 200 001 at most.
-    A shaft on bearings with states of their own is integrated by scipy, all else in C.
+    A shaft on bearings with states of their own is integrated by scipy, all else in C. Of such bearings,
+    plain journals whose oil warms are in C too.
     """
     report(0.0, "equilibrium")
     ready = prepared_run(scene)

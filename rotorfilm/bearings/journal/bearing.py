@@ -657,6 +657,16 @@ class BalancedBearing(StaticReaction):
 
         return tangent
 
+    def heat(self, state: list[float]) -> Any:
+        """Return an rf_heat at x, y, vx, vy, speed and 1 Pa s; None unless its status is RF_OK."""
+        found, status = self._kernel.heat(state)
+        return None if status else found
+
+    def heat_and_slopes(self, state: list[float]) -> Any:
+        """Return the same with its rf_heat_slopes."""
+        *found, status = self._kernel.heat_slopes(state)
+        return None if status else found
+
     def warming_call(self, capacity: float) -> FilmCall:
         """Return force and rate of the temperature in C, the heat capacity of film and bush being in J/K."""
         return self._kernel.warming(capacity, self._film.beyond)
@@ -665,10 +675,10 @@ class BalancedBearing(StaticReaction):
         """Return d(power, effective flow, side flow)/d(x, y, vx, vy, speed) at 1 Pa s, shape (3, 5)."""
         q, v, omega = broadcast_state(position, velocity, speed)
         state = [*q.tolist(), *v.tolist(), float(omega)]
-        slopes, status = self._kernel.heat_slopes(state)
+        _, slopes, status = self._kernel.heat_slopes(state)
         if status:
             self._film.report(status, *state)
-        return slopes
+        return np.array([slopes.drag, slopes.flow, slopes.leak])
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape, inside the clearance."""

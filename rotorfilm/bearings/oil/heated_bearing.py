@@ -77,7 +77,7 @@ class HeatedBearing:
         """Radial clearance [m]."""
         return float(self.bearing.clearance)
 
-    @property
+    @cached_property
     def capacity(self) -> float:
         """Heat capacity of the bush and of the oil in the concentric film, together [J/K]."""
         oil, cooling = self.bearing.cooled
@@ -143,8 +143,7 @@ class HeatedBearing:
 
     def warming_call(self) -> FilmCall | None:
         """Return force and rate of the temperature for loops in C (`rf_warming_at`); None without one."""
-        balanced = self.bearing.balanced() if type(self) is HeatedBearing else None
-        return None if balanced is None else balanced.warming_call(self.capacity)
+        return None if self._in_balance is None else self._in_balance.warming_call(self.capacity)
 
     def outputs_over_time(self, temperature: Array, position: Array, velocity: Array, speed: Array) -> Array:
         """Return the outputs at many temperatures and motions of a film that has a `warming_call`.
@@ -179,6 +178,17 @@ class HeatedBearing:
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the outputs, shape (5,), at the temperature x [K] and u = (x, y, vx, vy, speed)."""
         temperature, values = self._point(x, u)
+        if self._in_balance is not None and (unit := self._in_balance.heat(values.tolist())) is not None:
+            heat, viscosity = self._warmed(unit, temperature)
+            return np.array(
+                [
+                    viscosity * unit.force[0],
+                    viscosity * unit.force[1],
+                    temperature,
+                    heat.power,
+                    heat.side_flow,
+                ]
+            )
         film = self.bearing.at_temperature(temperature)
         heat = film.film_heat(values[:2], values[2:4], values[4])
         force = film.force(values[:2], values[2:4], values[4])
@@ -187,7 +197,10 @@ class HeatedBearing:
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the rate of the temperature [K/s], shape (1,)."""
         temperature, values = self._point(x, u)
-        heat = self.bearing.at_temperature(temperature).film_heat(values[:2], values[2:4], values[4])
+        if self._in_balance is not None and (unit := self._in_balance.heat(values.tolist())) is not None:
+            heat, _ = self._warmed(unit, temperature)
+        else:
+            heat = self.bearing.at_temperature(temperature).film_heat(values[:2], values[2:4], values[4])
         surplus, _ = heat_surplus(heat, *self.bearing.cooled, temperature)
         return np.array([surplus / self.capacity])
 
@@ -201,21 +214,40 @@ class HeatedBearing:
         """
         temperature, values = self._point(x, u)
         oil, cooling = self.bearing.cooled
-        film = self.bearing.at_temperature(temperature)
-        state = values[:2], values[2:4], float(values[4])
-        heat, slopes = film.film_heat(*state), film.heat_jacobian(*state)
+        found = None if self._in_balance is None else self._in_balance.heat_and_slopes(values.tolist())
+        if found is not None:
+            unit, by = found
+            heat, viscosity = self._warmed(unit, temperature)
+            force = viscosity * np.array(unit.force)
+            force_slopes = viscosity * np.array(by.force).reshape(2, 5)
+            slopes = np.array([by.drag, by.flow, by.leak]) * [[viscosity], [1.0], [1.0]]
+        else:
+            film = self.bearing.at_temperature(temperature)
+            state = values[:2], values[2:4], float(values[4])
+            heat, slopes = film.film_heat(*state), film.heat_jacobian(*state)
+            force, force_slopes = film.force(*state), film.jacobian(*state)
         _, cools = heat_surplus(heat, oil, cooling, temperature)
         warmer = temperature - cooling.supply_temperature
         by_state = slopes[0] - float(oil.volumetric_heat(cooling.supply_temperature)) * warmer * slopes[1]
         thins = -float(oil.law.thinning(temperature))
-        by_temperature = np.array([*(thins * film.force(*state)), 1.0, thins * heat.power, 0.0])
-        by_input = np.vstack([film.jacobian(*state), np.zeros(5), slopes[0], slopes[2]])
+        by_temperature = np.array([*(thins * force), 1.0, thins * heat.power, 0.0])
+        by_input = np.vstack([force_slopes, np.zeros(5), slopes[0], slopes[2]])
         return Linearization(
             np.array([[cools / self.capacity]]),
             by_state[None] / self.capacity,
             by_temperature[:, None],
             by_input,
         )
+
+    @cached_property
+    def _in_balance(self) -> Any:
+        """The bearing at every state in the balance of its heat, with its film in C; None without one."""
+        return self.bearing.balanced() if type(self) is HeatedBearing else None
+
+    def _warmed(self, unit: Any, temperature: float) -> tuple[FilmHeat, float]:
+        """Return the heat of a film with an rf_heat at 1 Pa s, at a temperature [K], and its viscosity."""
+        viscosity = float(self.bearing.cooled[0].law.viscosity(temperature))
+        return FilmHeat(viscosity * unit.drag, viscosity, unit.flow, unit.leak), viscosity
 
     @cached_property
     def _at_start(self) -> Any:

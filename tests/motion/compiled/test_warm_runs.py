@@ -8,6 +8,7 @@ from scipy.integrate import DOP853, simpson
 
 import rotorfilm as rf
 from rotorfilm.analysis.compiled_rotor import takes_forces
+from rotorfilm.bearings.oil.heated_bearing import HeatedBearing
 from rotorfilm.rotors import CrackedRotor, GaschHinge, JeffcottCrack, LinearMotor, MotorDrivenRotor
 
 COOLED = rf.Cooling(supply_temperature=313.15, housing_conductance=5.0, bush_heat_capacity=2.0)
@@ -93,6 +94,23 @@ def test_the_compiled_motion_is_that_of_scipy(case):
     for name, signal in reference.signals.items():
         size = np.ptp(signal) or 1.0
         assert np.abs(run[name] - signal).max() < 1e-8 * size, name
+
+
+class InPython(HeatedBearing):
+    """A film that warms, by the film law in Python."""
+
+
+@pytest.mark.parametrize("bearing", [WARM, FULL, GROOVED], ids=["short", "map, full gap", "grooves"])
+def test_the_film_in_c_is_that_in_python(bearing):
+    state, motion = [335.0], [3e-5, -2e-5, 2e-3, -1e-3, 400.0]
+    fast, slow = bearing.in_time(), InPython(bearing=bearing)
+    assert fast.output(0.0, state, motion) == pytest.approx(slow.output(0.0, state, motion), rel=1e-12)
+    assert fast.derivative(0.0, state, motion) == pytest.approx(
+        slow.derivative(0.0, state, motion), rel=1e-11
+    )
+    matrices = (one.linearization(0.0, state, motion) for one in (fast, slow))
+    for found, expected in zip(*matrices, strict=True):
+        np.testing.assert_allclose(found, expected, rtol=1e-10, atol=1e-10 * np.abs(expected).max())
 
 
 def test_the_error_falls_with_the_tolerance():
