@@ -43,14 +43,6 @@ class Proportional:
 '''
 
 
-@pytest.fixture(autouse=True)
-def _close_figures():
-    """Close what `plot()` shows to pyplot, which python-control imports."""
-    yield
-    if pyplot := sys.modules.get("matplotlib.pyplot"):
-        pyplot.close("all")
-
-
 @pytest.fixture
 def run(capsys):
     """Return a function that runs the command line: exit code, standard output, standard error."""

@@ -392,6 +392,11 @@ def test_a_pair_that_only_roundoff_makes_complex_is_two_real_motions():
     assert found.imag.tolist() == [0.0, 0.0, 3.0, -3.0]
     assert_allclose(matrix @ vectors, vectors * found, atol=1e-12)
     assert np.linalg.matrix_rank(vectors) == 4
+    # Parts that are nearly parallel are those of one vector: the pair stays.
+    near = turn[:, :1] + 1j * (0.3 * turn[:, :1] + 1e-9 * turn[:, 1:2])
+    kept, same = parted_pairs(values[:2], np.hstack([near, near.conj()]))
+    assert kept.tolist() == values[:2].tolist()
+    assert same.tolist() == np.hstack([near, near.conj()]).tolist()
 
 
 def test_whirl_of_an_isotropic_rotor_is_there_twice():

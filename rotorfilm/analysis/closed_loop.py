@@ -25,11 +25,11 @@ from ..core.model import Array, Dynamic, Linearization, Model
 from ..core.port import (
     Bearings,
     Reaction,
-    clearance_of,
     freedoms_of,
+    has_film,
     inertial,
     mass_of,
-    relative_film,
+    minimum_film,
     require_reaction,
     require_turning,
 )
@@ -481,7 +481,7 @@ def unbalance_response(
         Input `unbalance` [1]: a factor of the unbalance of the rotor. Outputs as in `rotor_system`: phasors
         at exp(i w t) [m, m/s, N]; x leads y by 90 degrees in forward whirl. Its attribute `work` counts
         equilibria searched, solutions in the shapes kept, and factorizations of all coordinates;
-        `largest_moves` has the `Move` of each journal that may touch its bearing.
+        `largest_moves` has the `Move` of each journal on a film, but not in a `Series`.
 
     Raises
     ------
@@ -584,12 +584,11 @@ class Move(NamedTuple):
 def _moves(
     at: RotorEquilibrium, bearings: Bearings, labels: Sequence[str], response: np.ndarray
 ) -> Iterator[tuple[str, float]]:
-    """Yield station and amplitude, over the least film at rest, of journals that may touch."""
+    """Yield station and amplitude, over the least film at rest, of journals on films."""
     for name, film in at.coefficients.items():
-        clearance = clearance_of(bearings[name])
-        if clearance < np.inf and (first := station_name(name, "x")) in labels:
+        if has_film(bearings[name]) and (first := station_name(name, "x")) in labels:
             x, y = (response[labels.index(one), 0] for one in (first, station_name(name, "y")))
-            room = clearance * relative_film(bearings[name], film.position)
+            room = float(minimum_film(bearings[name], film.position))
             yield name, 0.5 * (abs(x - 1j * y) + abs(x + 1j * y)) / room
 
 

@@ -480,10 +480,6 @@ class End(IntEnum):
     BAND = 6
 
 
-class OilTemperatureError(ConvergenceError):
-    """The temperature of a film came to where the viscosity of its oil is not tabulated."""
-
-
 class March:
     """One run of a rotor, which goes on from stop to stop.
 
@@ -638,7 +634,7 @@ class March:
         if end == End.WALL:
             return ContactError(f"journal{of_station(self._closest())} reached the wall {at}", kept)
         if end == End.BROKEN and (hot := self._beyond_oil()):
-            return OilTemperatureError(f"{hot} {at}", kept)
+            return ConvergenceError(f"{hot} {at}", kept)
         if end == End.BROKEN:
             return ConvergenceError(
                 f"film force{' and drive torque' * bool(self._torque)} must be finite and the forces of a "

@@ -75,9 +75,10 @@ def equilibrium(reaction: port.Reaction, load: ArrayLike, speed: float) -> Equil
     -------
     Equilibrium
         The equilibrium, with |film force + load| <= 1e-12 |load|. Where a light load is the small difference
-        of large forces, as on preloaded pads or balls, roundoff leaves up to 1e-6 |load|. For tilting pads it
-        is a `PadEquilibrium`. A `ValidityWarning` is given for a film beyond its map, for a temperature
-        beyond the viscosity law of the oil, and for a mean pressure |load|/(2 radius length) above half of
+        of large forces, as on preloaded pads or balls, roundoff leaves up to 1e-6 |load|, and where a tilting
+        pad gains or loses its film up to 1e-8 |load|. For tilting pads it is a `PadEquilibrium`. A
+        `ValidityWarning` is given for a film beyond its map, for a temperature beyond the viscosity law of
+        the oil, and for a mean pressure |load|/(2 radius length) above half of
         the bulk modulus of a mineral oil. It is also given for a film that is not laminar (Reynolds number
         speed radius clearance/kinematic viscosity above 2000 or 41.2 sqrt(radius/clearance)). Another warning
         is given for an equilibrium that is statically unstable: the stiffness in slow motion has a negative
@@ -212,7 +213,7 @@ def _found(reaction: Any, load: Array, speed: float) -> Equilibrium:
         best = search_place(target)
         if following and not best.found:
             best = continued_place(target, best)
-    if not (best.found or best.imbalance <= _AT_A_KINK):
+    if not (best.found or (following and best.imbalance <= _AT_A_KINK)):
         raise EquilibriumError(_why_not(load, target, best))
     found = _result(film, load, target, best)
     if not found.residual <= port.MOST_LEFT:

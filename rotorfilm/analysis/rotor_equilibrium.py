@@ -44,8 +44,8 @@ WARMINGS = 60
 """Most rounds of rest at given temperatures and temperatures at given rest."""
 
 JUMP = 1e-2
-"""Change [K] that may remain where rounds no longer reduce it: where a pad gains or loses its film, the power
-jumps by that of the pad, so that no temperature balances it better."""
+"""Change [K] that may remain where rounds go to and fro: where a pad gains or loses its film, the power jumps
+by that of the pad, so that no temperature balances it better."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -156,15 +156,15 @@ def rest(
     alone = system.each_alone(system.split(loads))
     p = np.concatenate([np.zeros(0), *(position for position, _ in alone)])
     temperatures = [temperature for _, temperature in alone]
-    change = math.inf
+    change = np.zeros(len(temperatures))
     for _ in range(WARMINGS):
         system.warm(temperatures)
         q, p = system.rest(q, p)
         last, temperatures = temperatures, system.balanced(p)
         before, change = change, _change(last, temperatures)
-        if change <= KELVIN:
+        if np.abs(change).max(initial=0.0) <= KELVIN:
             return _result(system, q, p, temperatures)
-        if change <= JUMP and change > 0.9 * before:
+        if np.abs(change).max() <= JUMP and np.abs(change + before).max() <= 1e-3 * np.abs(change).max():
             return _result(system, q, p, last)
     raise EquilibriumError(
         f"rotor must have an equilibrium at the temperatures of its films, and {WARMINGS} rounds did not "
@@ -213,10 +213,10 @@ def _at_speed(at: RotorEquilibrium, speed: float) -> RotorEquilibrium:
     return replace(at, speed=speed, coefficients=found)
 
 
-def _change(last: list[float | None], now: list[float | None]) -> float:
-    """Return the largest change of the temperatures of films that warm [K]."""
+def _change(last: list[float | None], now: list[float | None]) -> Array:
+    """Return the changes of the temperatures [K], 0 of films that do not warm."""
     pairs = zip(last, now, strict=True)
-    return max((abs(a - b) for a, b in pairs if a is not None and b is not None), default=0.0)
+    return np.array([0.0 if a is None or b is None else b - a for a, b in pairs])
 
 
 def _from_near(system: RestEquations, near: Sequence[RotorEquilibrium]) -> RotorEquilibrium | None:

@@ -127,6 +127,10 @@ ALONE = 1e-9
 """Relative distance from an exponent of states alone, below which the shaft does not take part in a whirl."""
 
 
+APART, TINY = 1e-6, 1e-300
+"""Least part of a vector, over its size, that counts as another one; and what no division goes below."""
+
+
 def parted_pairs(values: np.ndarray, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return eigenvalues and eigenvectors of a real matrix, with pairs that roundoff makes complex as real.
 
@@ -134,7 +138,13 @@ def parted_pairs(values: np.ndarray, vectors: np.ndarray) -> tuple[np.ndarray, n
     of the vector of the pair are its two vectors.
     """
     pairs = (values.imag != 0.0) & (np.abs(values.imag) <= ROUNDED * np.abs(values))
-    parts = np.where(values.imag > 0.0, vectors.real, vectors.imag)
+    # A pair whose two parts are nearly one vector is that of a defective eigenvalue, and stays.
+    first, second = vectors.real, vectors.imag
+    along = (first * second).sum(axis=0) / np.maximum((first * first).sum(axis=0), TINY)
+    apart = second - along * first
+    sizes = np.linalg.norm(apart, axis=0)
+    pairs &= sizes > APART * np.linalg.norm(first, axis=0)
+    parts = np.where(values.imag > 0.0, first, apart / np.maximum(sizes, TINY))
     return np.where(pairs, values.real, values), np.where(pairs, parts, vectors)
 
 

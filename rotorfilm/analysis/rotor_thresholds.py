@@ -377,6 +377,8 @@ class _Stability(NamedTuple):
                 value, shape = _followed_to(whole, at, value, shape)
             except (ConvergenceError, EquilibriumError):
                 return None
+            if not oscillates(np.array(value)) or value.imag < 0.0:
+                return None
             points.append((speed, value.real / _size(value, speed)))
             if len(points) == 1:
                 speed = onward if onward != speed else speed * (1.0 + NEARLY)

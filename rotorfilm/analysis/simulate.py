@@ -36,7 +36,6 @@ from ..rotors import ForcedRotor, MountedRotor, ShaftRotor, mount
 from ..rotors.mounted import Mount, wired
 from ..rotors.structure import prefixed, station_names
 from .compiled_march import (
-    OilTemperatureError,
     require_duration,
     require_longest_step,
     sample_times,
@@ -114,9 +113,8 @@ def simulate(
     ContactError
         If the journal reaches the wall; the error carries the trajectory until then.
     ConvergenceError
-        If the integrator gives up, the film force is not finite, or the compiled integration comes to a
-        temperature at which the viscosity of an oil is not tabulated (253.15 to 473.15 K); the error carries
-        the trajectory until then.
+        If the integrator gives up, or the film force is not finite; the error carries the trajectory until
+        then.
 
     Warns
     -----
@@ -230,10 +228,8 @@ def _compiled(system: Coupled, film: Any, in_c: Callable[[MountedRotor], Traject
         return _shown(in_c(mounted), labels)
     except ContactError as contact:
         raise ContactError(str(contact), _shown(contact.partial, labels)) from contact
-    except OilTemperatureError as hot:
-        raise OilTemperatureError(str(hot), _shown(hot.partial, labels)) from hot
     except ConvergenceError:
-        return None  # scipy gives its own message, if it gives up too
+        return None  # scipy gives its own message, if it gives up too, and knows oils beyond their tables
 
 
 def _shown(run: Trajectory, labels: list[str]) -> Trajectory:

@@ -18,6 +18,9 @@ from ..core.files import write_atomically
 from .canvas import new_figure, place_labels
 from .picture import BarsMark, CurveMark, FieldMark, LevelMark, NoteMark, Picture, PicturePanel
 
+FOR_FILES = {"agg", "cairo", "pdf", "pgf", "ps", "svg", "template"}
+"""Backends of matplotlib that show nothing."""
+
 NARROW = 50.0
 """Ratio of the ends of a logarithmic axis, below which it is labelled more densely than by decades."""
 
@@ -25,7 +28,8 @@ NARROW = 50.0
 def draw(picture: Picture, given: Any = None, *, for_pyplot: bool = False) -> list[Axes]:
     """Draw the panels, on Axes that are given or in a new figure; return its Axes.
 
-    A figure for pyplot is one that `matplotlib.pyplot.show` shows, if the user has imported that.
+    A figure for pyplot is one that `matplotlib.pyplot.show` shows, where a backend with windows or that of a
+    notebook is in use.
     """
     shown = _new(picture, for_pyplot=for_pyplot) if given is None else list(np.atleast_1d(given))
     for axes, panel in zip(shown, picture.panels, strict=True):
@@ -42,8 +46,9 @@ def _new(picture: Picture, *, for_pyplot: bool) -> list[Any]:
     columns = min(picture.columns, len(picture.panels))
     rows = -(-len(picture.panels) // columns)
     size = columns * picture.size[0], rows * picture.size[1]
-    pyplot = sys.modules.get("matplotlib.pyplot") if for_pyplot else None
-    figure = new_figure(size=size) if pyplot is None else pyplot.figure(figsize=size, layout="constrained")
+    pyplot: Any = sys.modules.get("matplotlib.pyplot") if for_pyplot else None
+    shows = pyplot is not None and pyplot.get_backend().lower() not in FOR_FILES
+    figure = pyplot.figure(figsize=size, layout="constrained") if shows else new_figure(size=size)
     figure.suptitle(picture.title, fontsize=11)
     return [
         figure.add_subplot(rows, columns, k, projection="3d" if panel.z else None)

@@ -270,8 +270,8 @@ BUILT: dict[str, tuple[str, float, float]] = {
     "speed": ("rad/s", 0.0, 1e6),
 }
 """Unit, smallest and largest size of what is built, by the name of an argument, from micromachines to
-hydrogenerators and from gases to greases. What a study lets go to zero or to infinity, as
-a viscosity or the modulus of a rigid shaft, has no bound there."""
+hydrogenerators and from gases to cold gear oils; greases are thicker. What a study lets go to zero or to
+infinity, as a viscosity or the modulus of a rigid shaft, has no bound there."""
 
 
 STIFFEST = 1e13

@@ -297,6 +297,11 @@ def has_wall(reaction: object) -> bool:
     return hasattr(reaction, "minimum_film")
 
 
+def has_film(reaction: object) -> bool:
+    """Return whether a journal runs on a film in a circle: not on balls, nor in a `Series` of reactions."""
+    return clearance_of(reaction) < np.inf and not hasattr(reaction, "balls")
+
+
 def minimum_film(reaction: Any, position: Array) -> Array:
     """Return the least film [m], shape (...), that any reaction has at positions (n, ...) [m]."""
     if has_wall(reaction):

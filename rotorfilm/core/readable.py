@@ -281,8 +281,7 @@ class Plottable:
         kind : str
             Which picture; the usual one by default. An unknown one raises an error that lists all.
         axes : Axes, or several of them where the picture has several, optional
-            Where to draw with matplotlib; a new figure by default, which `matplotlib.pyplot.show` shows where
-            that is imported.
+            Where to draw with matplotlib; a new figure by default, which `matplotlib.pyplot.show` shows.
         backend : str
             "matplotlib" or "plotly"; by default what `rotorfilm.charts.use` chose, or matplotlib.
 

@@ -27,6 +27,9 @@ from ..core.model import Array
 LEAST_DENSITY = 500.0
 """Density of the lightest shaft [kg/m3]; far less is meant to be none."""
 
+HEAVIEST = 25.0
+"""Density of the heaviest metal [g/cm3]."""
+
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
@@ -50,8 +53,8 @@ class ElasticMaterial:
     def __post_init__(self) -> None:
         require_each(self, require_positive, "young_modulus", "shear_modulus", "density")
         if 1e-3 * LEAST_DENSITY < self.density < LEAST_DENSITY:
-            given = f"{self.density:g}"
-            warn_user(f"density should be at least {LEAST_DENSITY:g} kg/m3, got {given}: {given} g/cm3?")
+            meant = f": {self.density:g} g/cm3?" if 1.0 < self.density < HEAVIEST else ""
+            warn_user(f"density should be at least {LEAST_DENSITY:g} kg/m3, got {self.density:g}{meant}")
 
     @property
     def poisson_ratio(self) -> float:

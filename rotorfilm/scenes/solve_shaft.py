@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import analysis
-from ..analysis.closed_loop import driven_by_unbalance
+from ..analysis.closed_loop import LINEAR, driven_by_unbalance
 from ..bearings.journal import USUAL_CORRECTION, JournalBearing, MomentCarryingJournal
 from ..bearings.journal.table import film_remarks
 from ..bearings.thrust.table import pads_load
 from ..core.answers import ISOTHERMAL
 from ..core.errors import InputError, RotorfilmError
 from ..core.model import Array
-from ..core.port import Reaction, clearance_of, relative_film
+from ..core.port import Reaction, clearance_of, has_film, minimum_film
 from ..core.progress import Report, part_of, silent
 from ..core.readable import Drawable, Readable
 from ..rotors import ShaftElement, ShaftRotor
@@ -86,7 +86,8 @@ class RotorAnswer(Drawable):
     response : control.FrequencyResponseData or None
         The same with phases.
     journals : dict of str to JournalAtRest
-        Each journal that may touch its bearing, at rest at the speed of `[operation]`, or at the last one.
+        Each journal on a film, at rest at the speed of `[operation]`, or at the last one; empty where the
+        rotor has no rest at that speed.
     remarks : tuple of str
         What the physics of shaft and films leaves out and should not, at the last speed, and at that of the
         compressor.
@@ -314,18 +315,21 @@ def _compressor(scene: Scene) -> tuple[ShaftTable, CompressorTable]:
 def _journals(
     rotor: ShaftRotor, bearings: Mapping[str, Reaction], speeds: Sequence[float] | Array
 ) -> Iterator[tuple[str, JournalAtRest]]:
-    """Yield station and rest of the journals that may touch, at the last of the speeds."""
-    at = analysis.rotor_equilibrium(rotor, bearings, float(speeds[-1]))
+    """Yield station and rest of the journals on films, at the last of the speeds; none without a rest."""
+    try:
+        at = analysis.rotor_equilibrium(rotor, bearings, float(speeds[-1]))
+    except RotorfilmError:
+        return
     for name, film in at.coefficients.items():
-        clearance = clearance_of(bearings[name])
-        if clearance < math.inf:
+        if has_film(bearings[name]):
             yield (
                 name,
                 JournalAtRest(
                     speed=at.speed,
                     load=float(np.linalg.norm(at.loads[name][:2])),
-                    eccentricity_ratio=float(np.linalg.norm(film.position[:2])) / clearance,
-                    minimum_film=clearance * relative_film(bearings[name], film.position),
+                    eccentricity_ratio=float(np.linalg.norm(film.position[:2]))
+                    / clearance_of(bearings[name]),
+                    minimum_film=float(minimum_film(bearings[name], film.position)),
                     temperature=at.temperatures.get(name),
                 ),
             )
@@ -364,7 +368,7 @@ def response_remarks(response: control.FrequencyResponseData) -> Iterator[str]:
     for name, (share, speed) in response.largest_moves.items():
         touching = share > 1.0
         numbers = {
-            "share": math.nan if touching else share,
+            "share": share if LINEAR < share <= 1.0 else math.nan,
             "touching": share if touching else math.nan,
             "rpm": speed * 30.0 / math.pi,
         }

@@ -9,7 +9,14 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.linalg import eig
 
-from rotorfilm import EquilibriumError, InputError, LinearBearing, TabulatedBearing, ValidityWarning
+from rotorfilm import (
+    BallBearing,
+    EquilibriumError,
+    InputError,
+    LinearBearing,
+    TabulatedBearing,
+    ValidityWarning,
+)
 from rotorfilm.analysis import (
     campbell,
     closed_loop,
@@ -259,6 +266,12 @@ def test_a_response_that_the_film_has_no_room_for_is_warned_of():
     share, speed = large.largest_moves["left"]
     assert (share, speed) == (pytest.approx(moved / (FILM.clearance - np.hypot(*rest)), rel=1e-5), 111.0)
     assert small.largest_moves["left"].share < 0.01 * share
+
+
+def test_balls_have_no_film_that_a_response_could_leave():
+    balls = BallBearing(balls=9, ball_diameter=12e-3, pitch_diameter=65e-3, internal_clearance=1e-5)
+    found = unbalance_response(friswell(unbalances=(Unbalance(node=2, unbalance=1e-2),)), both(balls), [20.0])
+    assert found.largest_moves == {}
 
 
 def test_unbalance_response_is_the_motion_of_the_model_in_time():

@@ -504,7 +504,7 @@ class ConservedAtRest:
         """
         q, columns = self._columns(position, velocity, speed)
         found = np.array([self._jacobian(*self.at_place(*column)) for column in columns])
-        return found.transpose(1, 2, 0).reshape(len(q), 2 * len(q) + 1, *q.shape[1:])
+        return np.moveaxis(found, 0, -1).reshape(len(q), 2 * len(q) + 1, *q.shape[1:])
 
     def _columns(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> tuple[Array, Any]:
         """Return places (n, ...), and places, rates and speed of one state after the other."""

@@ -49,6 +49,8 @@ static int warming(const rf_journals *journals, int32_t b, double *state, double
     const int32_t width = rf_slope_width(journals), behind = 2 * (journals->count - b) + b;
     double answer[3], jacobian[18];
     const int status = film_at(journals, b, 2, state, 3, answer, 18, jacobian);
+    if (status >= RF_AT_WALL)
+        return status;
     for (int i = 0; i < 3; ++i) {
         const int32_t row = i < 2 ? i : behind;
         force[row] = answer[i];
