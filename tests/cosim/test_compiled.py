@@ -147,7 +147,8 @@ def test_a_ramp_of_the_speed_stops_at_its_kinks(pair):
     rotor = rotor_at(0.6, 0.2, speed=RAMP)
     runs = [cosimulate(rotor, BEARING, macro_step=1e-4, duration=0.025, scheme=scheme) for scheme in pair]
     assert runs[0].trajectory.work == runs[1].trajectory.work
-    assert distance(*runs) < 1e-8  # the rotor's integration
+    # That of the rotor's integration; lengths that adapt multiply roundoff.
+    assert distance(*runs) < (1e-7 if pair is REPEATING[1] else 1e-8)
 
 
 @pytest.mark.long
