@@ -12,6 +12,7 @@ Newmark method, where installed, has the same matrices and runs over 2 turns. Ti
 
 from __future__ import annotations
 
+import inspect
 import math
 import sys
 from collections.abc import Callable
@@ -170,6 +171,9 @@ def ross_line(mounted: MountedRotor, rest: np.ndarray, times: np.ndarray, exact:
         from ross.utils import newmark
     except ImportError:
         print("  ROSS: not installed")
+        return None
+    if "rhs_func" in inspect.signature(newmark).parameters:
+        print("  ROSS: from 3.1 on its Newmark method takes other functions than those below")
         return None
     s, size = mounted.rotor.structure, len(rest)
     damping = s.damping + SPEED * s.gyroscopic
