@@ -26,7 +26,8 @@ from rotorfilm import (
 from rotorfilm.analysis import dynamic_stiffness, frozen_coefficients, quasi_static_coefficients
 from rotorfilm.analysis.api617 import cross_coupled
 from rotorfilm.analysis.rotor_matrices import parted_pairs
-from rotorfilm.core.port import force_along
+from rotorfilm.bearings import Body, Series
+from rotorfilm.core.port import force_along, has_film
 
 from .port_toys import Rubber, Strips, ThrustSpring
 
@@ -397,6 +398,25 @@ def test_a_pair_that_only_roundoff_makes_complex_is_two_real_motions():
     kept, same = parted_pairs(values[:2], np.hstack([near, near.conj()]))
     assert kept.tolist() == values[:2].tolist()
     assert same.tolist() == np.hstack([near, near.conj()]).tolist()
+
+
+def test_films_are_told_from_balls_springs_and_series():
+    plain = rf.JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.02)
+    warm = replace(
+        plain, viscosity=None, oil=rf.Oil.iso_vg(46), cooling=rf.Cooling(supply_temperature=318.15)
+    )
+    damper = rf.SqueezeFilmDamper(radius=0.06, length=0.03, clearance=1e-4, viscosity=0.01)
+    fed = rf.JFOFilm(bearing=replace(plain, grooves=(rf.Groove(center=1.5, width=0.3),)))
+    balls = rf.BallBearing(balls=9, ball_diameter=12e-3, pitch_diameter=65e-3, contact_angle=0.4)
+    films = (plain, warm, warm.in_time(), fed, damper, rf.with_springs(damper, 1e6))
+    others = (
+        balls,
+        rf.back_to_back(balls, distance=0.05, preload=100.0),
+        rf.LinearBearing(stiffness=1e6),
+        Series(outer=rf.LinearBearing(stiffness=1e6), body=Body(mass=1.0), inner=plain),
+    )
+    assert all(map(has_film, films))
+    assert not any(map(has_film, others))
 
 
 def test_whirl_of_an_isotropic_rotor_is_there_twice():

@@ -35,12 +35,7 @@ from ..core.signals import FORCE_OUTPUTS, MOTION_NAMES, Signal, force_names, nam
 from ..rotors import ForcedRotor, MountedRotor, ShaftRotor, mount
 from ..rotors.mounted import Mount, wired
 from ..rotors.structure import prefixed, station_names
-from .compiled_march import (
-    require_duration,
-    require_longest_step,
-    sample_times,
-    simulate_rotor,
-)
+from .compiled_march import require_duration, require_longest_step, sample_times, simulate_rotor
 from .compiled_rotor import CONTACT_GAP, compiled_form, takes_forces
 from .force_calls import of_station, warn_of_thin_films
 from .rotor_equilibrium import rotor_equilibrium

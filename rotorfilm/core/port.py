@@ -56,7 +56,8 @@ class Reaction(Model, Protocol):
     - `force_along(position, velocity, acceleration, speed)`, this force F, if it does not follow from the
       others;
     - `is_warming`, `at_temperature(T)`, `balanced_temperature(...)`, `next_temperature(...)`, `coldest()`,
-      `balanced()`, `in_time()`, where the temperature of the film follows from its heat;
+      `balanced()`, `in_time()`, where the temperature of the film follows from its heat, and
+      `require_liquid(T)`, which refuses a balance at which there is no oil;
     - `warming_call()`, force and rate of its one state, a temperature, in the C library, a `FilmCall` or
       None, with `temperature_range` and `outputs_over_time(...)`;
     - `breakpoints`, the times [s] at which an integrator should stop, in rising order;
@@ -298,8 +299,10 @@ def has_wall(reaction: object) -> bool:
 
 
 def has_film(reaction: object) -> bool:
-    """Return whether a journal runs on a film in a circle: not on balls, nor in a `Series` of reactions."""
-    return clearance_of(reaction) < np.inf and not hasattr(reaction, "balls")
+    """Return whether a journal runs on a film of known thickness: not on balls, springs or a `Series`."""
+    parts = reaction, getattr(reaction, "bearing", None)
+    known = any(hasattr(one, name) for one in parts for name in ("viscosity", "film", "minimum_film"))
+    return known and clearance_of(reaction) < np.inf
 
 
 def minimum_film(reaction: Any, position: Array) -> Array:

@@ -1,5 +1,7 @@
 """A journal as FMUs see it: its inputs, its outputs, and motions of it."""
 
+from itertools import cycle
+
 import numpy as np
 import pytest
 
@@ -12,6 +14,13 @@ version_and_kind = pytest.mark.parametrize(
     ids=["2.0-ME", "3.0-CS", "2.0-CS", "3.0-ME"],
 )
 """Each version of FMI and each kind of FMU once; the other pairs are for long runs."""
+
+
+def crosswise(names):
+    """Return each of several names with one version of FMI, in turn, and the other pairs for long runs."""
+    versions = ("2.0", "3.0")
+    others = zip(names, cycle(versions[::-1]))
+    return [*zip(names, cycle(versions)), *(pytest.param(*pair, marks=pytest.mark.long) for pair in others)]
 
 
 def motions(count, largest):

@@ -12,7 +12,7 @@ from rotorfilm import export_fmu
 from rotorfilm.bearings import ThrustBearing, TiltingThrustBearing
 from rotorfilm.fmu import check_fmu
 
-from .journals import version_and_kind
+from .journals import crosswise, version_and_kind
 
 SIZES = {"inner_radius": 0.025, "outer_radius": 0.05, "viscosity": 0.03, "gap": 5e-5, "cells": (16, 8)}
 FIXED = ThrustBearing(pads=6, pad_arc=math.radians(50.0), taper_depth=4e-5, **SIZES)
@@ -50,24 +50,7 @@ def test_forces_tilts_and_derivatives_are_those_of_python(name, version, exchang
         np.testing.assert_allclose(found, slopes.C, rtol=1e-12, atol=1e-12 * np.abs(slopes.C).max())
 
 
-@pytest.mark.parametrize(
-    ("name", "version"),
-    [
-        ("fixed", "2.0"),
-        ("tilting", "3.0"),
-        ("fixed table", "3.0"),
-        ("tilting table", "2.0"),
-        *(
-            pytest.param(*other, marks=pytest.mark.long)
-            for other in (
-                ("fixed", "3.0"),
-                ("tilting", "2.0"),
-                ("fixed table", "2.0"),
-                ("tilting table", "3.0"),
-            )
-        ),
-    ],
-)
+@pytest.mark.parametrize(("name", "version"), crosswise(["fixed", "tilting", "tilting table", "fixed table"]))
 def test_a_thrust_bearing_is_native_and_passes_all_checks(name, version, tmp_path):
     start = {"speed": 300.0, "tilt_x": 1e-5}
     path = export_fmu(MODELS[name], tmp_path / "thrust.fmu", version, start=start, stop_time=1e-3)

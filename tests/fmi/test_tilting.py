@@ -16,6 +16,8 @@ from rotorfilm.bearings import PadMapFilm, PadResolution
 from rotorfilm.fmu import check_fmu
 from rotorfilm.native import FOLDER
 
+from .journals import crosswise
+
 HOST = Path(__file__).parents[2] / "benchmarks" / "step_host.c"
 FILM = PadMapFilm(resolution=PadResolution(cells=(32, 4), nodes=(8, 9, 24)))
 LIGHT = TiltingPadBearing(
@@ -82,17 +84,9 @@ def test_outputs_rates_and_derivatives_are_those_of_python(model, version, opene
     np.testing.assert_allclose(columns, by.C, rtol=1e-12, atol=1e-12 * np.abs(by.C).max())
 
 
-@pytest.mark.parametrize(
-    ("model", "version"),
-    [
-        (LIGHT, "2.0"),
-        (SPRUNG, "3.0"),
-        pytest.param(LIGHT, "3.0", marks=pytest.mark.long),
-        pytest.param(SPRUNG, "2.0", marks=pytest.mark.long),
-    ],
-    ids=["light 2.0", "sprung 3.0", "light 3.0", "sprung 2.0"],
-)
-def test_tilting_pads_are_native_by_default_and_pass_all_checks(model, version, tmp_path):
+@pytest.mark.parametrize(("name", "version"), crosswise(["light", "sprung"]))
+def test_tilting_pads_are_native_by_default_and_pass_all_checks(name, version, tmp_path):
+    model = {"light": LIGHT, "sprung": SPRUNG}[name]
     start = dict(zip(INPUTS, PLACE.tolist(), strict=True))
     path = export_fmu(started(model), tmp_path / "t.fmu", version, start=start)
     assert [item.check for item in check_fmu(path) if item.passed is False] == []

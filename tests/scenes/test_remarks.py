@@ -85,4 +85,6 @@ def test_a_response_beyond_its_film_is_said():
     text = (EXAMPLES / "flexible_rotor.toml").read_text(encoding="utf-8").replace("count = 45", "count = 12")
     large = solve_rotor(parse_scene(text.replace("1000 g mm", "20000 g mm"), "a.toml")).remarks
     assert sum("linear film: the unbalance would move the journal by " in line for line in large) == 2
+    some = solve_rotor(parse_scene(text.replace("1000 g mm", "1500 g mm"), "a.toml")).remarks
+    assert any("linear film: the unbalance moves the journal by 0." in line for line in some)
     assert not any("linear film" in line for line in solve_rotor(parse_scene(text, "a.toml")).remarks)

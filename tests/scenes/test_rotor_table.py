@@ -129,6 +129,10 @@ def test_journals_rest_as_their_bearings_do_under_the_loads_alone():
             assert one.minimum_film == pytest.approx(alone.minimum_film, rel=1e-6)
             assert one.temperature is None
     assert solve_rotor(scene(HEAD, SHAFT, DISKS, SPEEDS, SPRINGS)).journals == {}
+    # At standstill no film carries the shaft; all else is answered.
+    still = solve_rotor(parse_scene(text + '[operation]\nspeed = "0 rpm"\n', "a.toml"))
+    assert still.journals == {}
+    assert still.threshold.speed is not None
 
 
 def test_a_scene_is_the_rotor_of_the_library():

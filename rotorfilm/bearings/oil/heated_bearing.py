@@ -656,7 +656,7 @@ def balance_temperature(heat: FilmHeat, oil: Oil, cooling: Cooling) -> float:
 
 def require_liquid(temperature: float) -> None:
     """Raise InputError where the heat of a film balances at a temperature [K] at which there is no oil."""
-    if temperature > HOTTEST_OIL:
+    if temperature >= HOTTEST_OIL:
         raise InputError(
             f"speed must leave the oil below {HOTTEST_OIL:g} K, got one at which it would be hotter "
             "in the balance of the heat of the film"
@@ -696,10 +696,9 @@ def film_temperature(
     high = balance_temperature(heat(low), oil, cooling)
     while high < HOTTEST_OIL and surplus(high) > 0.0:
         high += high - low
-    if high >= HOTTEST_OIL:
-        high = HOTTEST_OIL
-        require_liquid(low if surplus(high) <= 0.0 else math.inf)
-    return float(brentq(surplus, low, high, xtol=_KELVIN))
+    if high >= HOTTEST_OIL and surplus(HOTTEST_OIL) > 0.0:
+        require_liquid(high)
+    return float(brentq(surplus, low, min(high, HOTTEST_OIL), xtol=_KELVIN))
 
 
 def _unheated(heat: FilmHeat, oil: Oil, cooling: Cooling) -> float:

@@ -38,6 +38,13 @@ def fed():
     return JFOFilm(bearing=bearing(supply_pressure=2e5), cells=(72, 6))
 
 
+def test_no_states_have_no_forces_nor_slopes():
+    none = np.zeros((2, 0)), np.zeros((2, 0)), np.zeros(0)
+    film = JFOFilm(bearing=bearing(), cells=(24, 4))
+    assert film.force(*none).shape == (2, 0)
+    assert film.jacobian(*none).shape == (2, 5, 0)
+
+
 @pytest.mark.literature
 @pytest.mark.parametrize(("slenderness", "eps", "load", "attitude", "flow"), BUTENSCHOEN)
 def test_butenschoen(slenderness, eps, load, attitude, flow):
