@@ -319,7 +319,6 @@ def _warm(bearing: Any, load: Array, speed: float) -> Equilibrium:
     if bearing.balanced() is not None:
         at = _found(bearing.balanced(), load, speed)
         temperature = bearing.balanced_temperature(at.position, np.zeros(2), speed)
-        port.optional(bearing, "require_liquid", temperature)
         return replace(at, temperature=temperature, reaction=bearing.at_temperature(temperature))
     from scipy.optimize import brentq
 
