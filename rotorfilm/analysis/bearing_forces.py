@@ -10,7 +10,7 @@ from ..core.model import Array
 from ..core.port import freedoms_of, inertial, mass_of
 from ..rotors.structure import freedom_rows
 from .compiled_rotor import Parts, equations, state_matrices, turning_pairs
-from .force_calls import CrackForce, warms
+from .force_calls import CrackForce, has_states_in_c
 
 
 def bearing_forces(parts: Parts, time: Array, states: Array, turn: Array) -> list[Array]:
@@ -35,7 +35,7 @@ def bearing_forces(parts: Parts, time: Array, states: Array, turn: Array) -> lis
         last = first + len(one.system.A)
         inner[one.station], first = states[:, first:last].T, last
     outputs = [
-        bearing.outputs_over_time(inner[name][0], *at, speed) if warms(bearing) else None
+        bearing.outputs_over_time(inner[name], *at, speed) if has_states_in_c(bearing) else None
         for (name, bearing), at in zip(journals, moved, strict=True)
     ]
     found = [

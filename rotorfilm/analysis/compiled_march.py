@@ -9,7 +9,7 @@ from ctypes import addressof, byref, c_double, c_int32, c_int64
 from dataclasses import replace
 from enum import IntEnum
 from functools import lru_cache, partial
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -41,7 +41,14 @@ from ..rotors.structure import prefixed
 from . import compiled_rotor
 from .bearing_forces import bearing_forces
 from .compiled_rotor import modes, starts
-from .force_calls import of_station, raise_foreign, torque_call, warms, warn_beyond, warn_of_thin_films
+from .force_calls import (
+    has_states_in_c,
+    of_station,
+    raise_foreign,
+    torque_call,
+    warn_beyond,
+    warn_of_thin_films,
+)
 from .threads import one_blas_thread
 
 LONGEST_TURN = 1.0
@@ -86,8 +93,8 @@ def simulate_rotor(
     mounted : MountedRotor
         Mounted rotor from `mount`, with a bearing in at least one station, and without free force inputs. Its
         bearings react to x and y, or are a `MomentCarryingJournal`, and have no states unless they are
-        linear, as a `FrequencyDependentReaction`, or journal bearings whose oil warms. Its speed may be a
-        profile, or follow from a motor.
+        linear, as a `FrequencyDependentReaction`, journal bearings whose oil warms, or have tilting pads.
+        Its speed may be a profile, or follow from a motor.
     duration : float [s]
     samples : int
         Number of samples at equal distance, from 0 to `duration` inclusive.
@@ -96,7 +103,7 @@ def simulate_rotor(
     initial_state : array_like, shape (n_states,), optional
         State at t = 0, instead of the rotor's own.
     rtol : float [1]
-        Local error of the journals at every moment: displacement / clearance and velocity /
+        Local error of the journals and pads at every moment: displacement / clearance and velocity /
         (clearance speed), and temperature / 30 K of films that warm. On a motor also that of the angle, in
         rad, and of the speed. There velocities and speed are divided by the largest speed that is known
         before the run, as the idle speed.
@@ -333,8 +340,8 @@ class ModalArrays(NamedTuple):
     Attributes
     ----------
     values, push, sense : ndarray of complex
-        Values, push and sense as for a `ModalRotor`. Where a film warms, `sense` goes on with the temperature
-        of each journal, and `push` has the rates of these behind the forces. Where a bearing adds a mass,
+        Values, push and sense as for a `ModalRotor`. Where films have states, `sense` goes on with these, and
+        `push` has their rates behind the forces. Where a bearing adds a mass,
         `sense` goes on with ax, ay of each journal, and on a motor with the acceleration of the unbalance.
         There `push` ends with zeros, for the angular acceleration.
     direct : ndarray, shape (n_rows, n_channels), or None
@@ -357,9 +364,9 @@ class ModalArrays(NamedTuple):
         if modal.parts.motor:
             every.append(compiled_rotor.unbalance_rates(modal))
             push = np.column_stack([push, np.zeros(len(push))])
-        if (warm := modal.parts.temperatures) is not None:
-            push = np.insert(push, [2 * len(warm)], modal.inverse @ warm.T, axis=1)
-            sense = np.vstack([sense, warm @ modal.shapes])
+        if inner := [*chain(*modal.parts.film_states)]:
+            push = np.insert(push, [len(sense) // 2], modal.inverse[:, inner], axis=1)
+            sense = np.vstack([sense, modal.shapes[inner]])
         rates = np.vstack(every[not modal.is_heavy :]) if modal.is_heavy or modal.parts.motor else None
         if rates is not None:
             direct = np.vstack([np.zeros((len(sense), push.shape[1])), (rates @ push).real])
@@ -645,12 +652,11 @@ class March:
 
     def _beyond_oil(self) -> str:
         """Return which film has come to where its oil is not tabulated; empty where none has."""
-        parts = self.modal.parts
-        if parts.temperatures is None:
-            return ""
-        found = (parts.temperatures @ self.modal.shapes @ self.state).real.tolist()
-        for name, bearing, t in zip(parts.names, parts.bearings, found, strict=False):  # not for a crack
-            coldest, hottest = bearing.temperature_range if warms(bearing) else (-math.inf, math.inf)
+        parts, now = self.modal.parts, self.modal.physical(self.state)
+        for name, bearing, places in zip(parts.names, parts.bearings, parts.film_states, strict=False):
+            if not places or not hasattr(bearing, "temperature_range"):
+                continue
+            (coldest, hottest), t = bearing.temperature_range, float(now[places[0]])
             if not coldest + EDGE < t < hottest - EDGE:
                 return (
                     f"temperature{of_station(name)} must be from {coldest:g} to {hottest:g} K, where the "
@@ -685,13 +691,19 @@ def rate_of(modal: compiled_rotor.ModalRotor) -> float:
 
 
 def journal_scales(modal: compiled_rotor.ModalRotor) -> Array:
-    """Return what makes x, y, vx, vy and temperature of each journal dimensionless, 0 for the others."""
+    """Return what makes x, y, vx, vy of each journal and states of films dimensionless, 0 for the others."""
     rate, lengths = rate_of(modal), modal.parts.lengths.copy()
     lengths[len(modal.parts.names) * modal.parts.points :] = math.inf
     motion = [np.array([1.0, 1.0, 1.0 / rate, 1.0 / rate]) / c for c in lengths]
-    warm = np.full(len(lengths) if modal.parts.temperatures is not None else 0, 1.0 / KELVINS)
+    inner = [_film_scales(one, rate) for one in modal.parts.bearings if has_states_in_c(one)]
     further = 2 * len(lengths) * modal.is_heavy + 2 * bool(modal.parts.motor)
-    return np.concatenate([*motion, warm, np.zeros(further)])
+    return np.concatenate([*motion, *inner, np.zeros(further)])
+
+
+def _film_scales(bearing: Any, rate: float) -> Array:
+    """Return what makes the states of a film dimensionless."""
+    sizes = {"K": KELVINS, "m": bearing.clearance, "m/s": bearing.clearance * rate}
+    return np.array([1.0 / sizes[signal.unit] for signal in bearing.states])
 
 
 # A run of a rotor whose speed may change its gyroscopic effect and rotating damping: march after march.

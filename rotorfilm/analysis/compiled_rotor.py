@@ -51,7 +51,7 @@ from ..rotors.structure import (
     solved_equations,
     station_name,
 )
-from .force_calls import CrackForce, call_over_time, feels_tilt, film_call, warms
+from .force_calls import CrackForce, call_over_time, feels_tilt, film_call, has_states_in_c
 from .modal_reduction import Condensed, models
 from .rotor_matrices import FASTER, unbalanced
 
@@ -72,7 +72,7 @@ It grows with the highest frequency of a shaft, which goes with the square of th
 LARGEST_CONDITION = 1e10
 
 DECAY = 1.0
-"""Rate at which the temperatures of films fall by themselves, which the films give back [1/s]."""
+"""Rate at which the states of films fall by themselves, which the films give back [1/s]."""
 
 FARTHEST = 1e6
 """Largest displacement of a rest on springs, in clearances: roundoff of 1e-10 is left of motion about it."""
@@ -81,7 +81,7 @@ FARTHEST = 1e6
 class StationEquations(NamedTuple):
     """A bearing with a part in the linear equations of its rotor, with its states behind those of the rotor.
 
-    It is linear, or a film that warms, of which only the decay of its temperature is there.
+    It is linear, or a film in C with states, of which only their decay is there.
 
     Attributes
     ----------
@@ -160,22 +160,18 @@ class Parts(NamedTuple):
 
     def is_linear(self, bearing: Any) -> bool:
         """Return whether a bearing is part of the linear equations."""
-        return any(bearing is one.reaction for one in self.linear) and not warms(bearing)
+        return any(bearing is one.reaction for one in self.linear) and not has_states_in_c(bearing)
 
     @property
-    def temperatures(self) -> Array | None:
-        """States that are the temperature of each bearing, shape (n_bearings, n_states) of 0 and 1.
-
-        None if no film warms.
-        """
-        if not any(map(warms, self.bearings)):
-            return None
-        rows = np.zeros((len(self.bearings), len(self.scale(1.0))))
-        first = 2 * len(self.structure.weight)
+    def film_states(self) -> list[range]:
+        """Places among all states of those of each film in C, in the order of the bearings."""
+        found, first = [range(0)] * len(self.bearings), 2 * len(self.structure.weight)
         for one in self.linear:
-            rows[self.names.index(one.station), first] = float(warms(one.reaction))
-            first += len(one.system.A)
-        return rows
+            last = first + len(one.system.A)
+            if has_states_in_c(one.reaction):
+                found[self.names.index(one.station)] = range(first, last)
+            first = last
+        return found
 
     def call(self, bearing: Any) -> FilmCall:
         """Return the force of one of the bearings in C."""
@@ -183,8 +179,8 @@ class Parts(NamedTuple):
             return bearing.call()
         if self.is_linear(bearing):
             return FilmCall.of_numbers("rf_springs_at", np.zeros(8))
-        if self.over_time and warms(bearing):
-            return cast(FilmCall, bearing.warming_call())
+        if self.over_time and has_states_in_c(bearing):
+            return cast(FilmCall, bearing.call_with_states())
         return call_over_time(bearing) if self.over_time else film_call(bearing)
 
     def scale(self, rate: float) -> Array:
@@ -306,7 +302,7 @@ def take_apart(mounted: MountedRotor, *, over_time: bool = False) -> Parts:
     """Return structure, speed and bearings of a rotor that rests in bearings without states.
 
     For a run over time they may be journals that feel their tilt, bearings that add mass, linear ones with
-    states, and films in C that warm, and the rotor may have a crack.
+    states, and films in C with states, and the rotor may have a crack.
 
     Raises
     ------
@@ -332,9 +328,9 @@ def take_apart(mounted: MountedRotor, *, over_time: bool = False) -> Parts:
         )
     tilted = over_time and any(feels_tilt(bearing) for bearing in bearings)
     cracked = [CrackForce(bare)] if isinstance(bare, CrackedRotor) else []
-    if tilted and (cracked or any(port.inertial(bearing) or warms(bearing) for bearing in bearings)):
+    if tilted and (cracked or any(port.inertial(one) or has_states_in_c(one) for one in bearings)):
         raise InputError(
-            "rotor must have no crack, no added mass and no film that warms beside a journal that feels its "
+            "rotor must have no crack, no added mass and no film with states beside a journal that feels its "
             "tilt"
         )
     for name in names:
@@ -363,9 +359,12 @@ def _linear_reactions(
 ) -> tuple[StationEquations, ...]:
     """Return bearings with a part in the linear equations, in the order of their states."""
     every = []
-    cools = Linearization(np.array([[-DECAY]]), np.zeros((1, 4)), np.zeros((2, 1)), np.zeros((2, 4)))
     for name, bearing in bearings.items():
-        system = cools if warms(bearing) else port.linear_system(bearing, speeds)
+        if has_states_in_c(bearing):
+            n = len(bearing.states)
+            system = Linearization(-DECAY * np.eye(n), np.zeros((n, 4)), np.zeros((2, n)), np.zeros((2, 4)))
+        else:
+            system = port.linear_system(bearing, speeds)
         if system is not None:
             still = np.zeros(2)
             mass = port.mass_of(bearing, still, still, speeds[0])
@@ -572,7 +571,9 @@ CONTACT_GAP = 1e-9
 
 def _wall(bearing: Any) -> float:
     """Return the eccentricity at which a journal's points touch [m]; infinite where its force says that."""
-    return math.inf if feels_tilt(bearing) and bearing.tilted_call() is None else float(bearing.clearance)
+    if feels_tilt(bearing) and bearing.tilted_call() is None:
+        return math.inf
+    return float(getattr(bearing, "travel_limit", bearing.clearance))
 
 
 class JournalFilms(NamedTuple):
@@ -582,7 +583,7 @@ class JournalFilms(NamedTuple):
     ----------
     films, of : ndarray of addresses, shape (n,)
         Of the functions, and of what they take first.
-    rest : ndarray, shape (4 n,), or (5 n,) where films warm
+    rest : ndarray, shape (4 n + n_film_states,)
         x, y, vx, vy of each journal about which motion is counted, and behind them zeros.
     spring, damper : ndarray, shape (2 n,) [N/m], [N s/m]
         What the rotor rests on and the films give back.
@@ -594,8 +595,8 @@ class JournalFilms(NamedTuple):
         Of each journal's points; 0 where it feels no tilt.
     masses, of_masses : ndarray of addresses, shape (n,), or None
         Of the functions of added masses, and of what they take first; None where no bearing adds any.
-    decays : ndarray, shape (n,) [1/s], or None
-        What the temperatures fall by themselves and the films give back; None where no film warms.
+    first : ndarray of int, shape (n + 1,), or None
+        Which of the states of all films those of each are; None where no film has any.
     """
 
     films: np.ndarray
@@ -608,7 +609,7 @@ class JournalFilms(NamedTuple):
     arms: Array
     masses: np.ndarray | None = None
     of_masses: np.ndarray | None = None
-    decays: Array | None = None
+    first: np.ndarray | None = None
 
     @classmethod
     def of_rotor(cls, modal: ModalRotor, *, absolute: bool = False) -> JournalFilms:
@@ -616,23 +617,23 @@ class JournalFilms(NamedTuple):
         addresses = np.array([(call.address, call.data) for call in modal.calls], dtype=np.uintp).T
         parts = modal.parts
         rest = np.zeros(4 * len(parts.lengths)) if absolute else modal.journal_rest
-        decays = None
-        if parts.temperatures is not None:
-            decays = DECAY * parts.temperatures.sum(axis=1)
-            rest = np.append(rest, np.zeros(len(decays)))
+        first = np.append(0, np.cumsum(list(map(len, parts.film_states)))).astype(np.int32)
+        rest = np.append(rest, np.zeros(first[-1]))
         sizes = [_wall(one) for one in parts.bearings]
         walls = (1.0 - CONTACT_GAP) * np.repeat(sizes, parts.points)
         arms = np.array([one.arm if feels_tilt(one) else 0.0 for one in parts.bearings])
         rows = rest, modal.spring, modal.damper, parts.lengths, walls, arms
         masses = np.array([call.mass for call in modal.calls], dtype=np.uintp).T
         heavy = map(np.ascontiguousarray, masses) if modal.is_heavy else (None, None)
-        return cls(*map(np.ascontiguousarray, (*addresses, *rows)), *heavy)._replace(decays=decays)
+        found = cls(*map(np.ascontiguousarray, (*addresses, *rows)), *heavy)
+        return found._replace(first=first) if first[-1] else found
 
     def struct(self) -> Any:
         """Return them as the C library reads them, while this object lives."""
         sizes = len(self.lengths), len(self.lengths) // len(self.arms)
         places = (None if numbers is None else numbers.ctypes.data for numbers in self)
-        return structure("rf_journals")(*sizes, *places)
+        most = 0 if self.first is None else int(np.diff(self.first).max())
+        return structure("rf_journals")(*sizes, *places, most, DECAY)
 
     def forces(self, motion: Array, speed: float) -> tuple[int, Array, Array]:
         """Return a status, forces of films and springs (2 n, samples), and slopes (2 n, 4, samples).
@@ -667,8 +668,8 @@ def compiled_form(rotor: Dynamic, reaction: Any) -> MountedRotor | None:
 
     - each bearing is linear, also with states, or adds a mass, or has a force in the C library. The last is a
       journal bearing or a damper whose film has a kernel (map, short film, grooved map, two-dimensional
-      film), or one of these beside springs. The oil of a journal bearing may warm, if its film has its losses
-      in the C library too, as these have without supply pressure;
+      film), or one of these beside springs, or a bearing of tilting pads. The oil of a journal bearing may
+      warm, if its film has its losses in the C library too, as these have without supply pressure;
     - the rotor is a `RigidRotor` or a `FlexibleRotor`, mounted or not, whose equations no subclass has
       changed, without a loss factor; on ground that shakes, with a crack, or driven by a motor too.
 
@@ -694,7 +695,7 @@ def compiled_form(rotor: Dynamic, reaction: Any) -> MountedRotor | None:
 def takes_forces(rotor: Dynamic, bearings: Iterable[Any]) -> bool:
     """Return whether `simulate_rotor` takes a rotor on bearings by station, those in Python too.
 
-    It takes the linear rotors of `compiled_form`, on linear bearings, films in C that warm, and others
+    It takes the linear rotors of `compiled_form`, on linear bearings, films in C with states, and others
     without states.
     """
     every = (*bearings, *(rotor.all_bearings.values() if isinstance(rotor, MountedRotor) else ()))
@@ -702,11 +703,11 @@ def takes_forces(rotor: Dynamic, bearings: Iterable[Any]) -> bool:
         return False
     cracked, speeds = type(_bare(rotor)) is CrackedRotor, _speeds(rotor)
     still = all(
-        not film.states or warms(film) or port.linear_system(film, speeds) is not None for film in every
+        not one.states or has_states_in_c(one) or port.linear_system(one, speeds) is not None for one in every
     )
     planar = all(port.freedoms_of(film) == PLANAR or feels_tilt(film) for film in every)
     tilted = any(map(feels_tilt, every))
-    heavy = any(port.inertial(film) is not None or warms(film) for film in every)
+    heavy = any(port.inertial(film) is not None or has_states_in_c(film) for film in every)
     return still and planar and not (tilted and (cracked or heavy))
 
 
@@ -714,7 +715,7 @@ def _is_compiled(bearing: Any) -> bool:
     if port.freedoms_of(bearing) != PLANAR:
         return False
     fast = hasattr(bearing, "linear_system") or port.inertial(bearing) is not None
-    return fast or warms(bearing) or port.compiled_force(bearing) is not None
+    return fast or has_states_in_c(bearing) or port.compiled_force(bearing) is not None
 
 
 AROUND = CrackedRotor, MotorDrivenRotor

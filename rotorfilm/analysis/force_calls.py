@@ -25,6 +25,7 @@ from ..core.results import Trajectory
 from ..core.signals import Signal
 from ..native import Status
 from ..native.film_call import MASSLESS, FilmCall
+from ..native.structs import constant
 from ..rotors import CrackedRotor, LinearMotor
 from ..rotors.structure import station_name
 
@@ -187,9 +188,10 @@ def torque_call(torque: Any) -> FilmCall:
     return _call_of(driven, [])
 
 
-def warms(bearing: Any) -> bool:
-    """Return whether a bearing is a film in C whose temperature is its state."""
-    return optional(bearing, "warming_call") is not None
+def has_states_in_c(bearing: Any) -> bool:
+    """Return whether a bearing is a film in C with states of its own, as a temperature or tilts of pads."""
+    call = optional(bearing, "call_with_states")
+    return call is not None and call.states <= constant("RF_FILM_STATES")
 
 
 def feels_tilt(bearing: Any) -> bool:

@@ -58,8 +58,8 @@ class Reaction(Model, Protocol):
     - `is_warming`, `at_temperature(T)`, `balanced_temperature(...)`, `next_temperature(...)`, `coldest()`,
       `balanced()`, `in_time()`, where the temperature of the film follows from its heat, and
       `require_liquid(T)`, which refuses a balance at which there is no oil;
-    - `warming_call()`, force and rate of its one state, a temperature, in the C library, a `FilmCall` or
-      None, with `temperature_range` and `outputs_over_time(...)`;
+    - `call_with_states()`, force and rates of its states in the C library, a `FilmCall` or None, with
+      `outputs_over_time(...)`, and `temperature_range` where a state is a temperature;
     - `breakpoints`, the times [s] at which an integrator should stop, in rising order;
     - `warn_of_load(load)` and `warn_of_flow(speed, temperature, hottest)`, which warn where the model of its
       film ends; a film may have a `bearing` that warns;

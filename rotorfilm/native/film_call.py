@@ -42,6 +42,8 @@ class FilmCall(NamedTuple):
     mass : tuple of two int
         Address of the rf_mass_response (native/films/film.h) of an added mass, and of its first argument;
         zeros where there is none.
+    states : int
+        States of its own, which it takes behind the speed, and whose rates it answers behind the force.
     """
 
     address: int
@@ -50,6 +52,7 @@ class FilmCall(NamedTuple):
     beyond: str = ""
     raised: Sequence[BaseException] = ()
     mass: tuple[int, int] = MASSLESS
+    states: int = 0
 
     @classmethod
     def of_numbers(cls, function: str, numbers: Array) -> FilmCall:

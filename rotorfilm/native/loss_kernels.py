@@ -184,7 +184,7 @@ class BalancedKernel:
             As that of a `FilmCall`.
         """
         struct = structure("rf_warming")(film=self._struct, per_capacity=1.0 / capacity)
-        return FilmCall(address_of("rf_warming_at"), addressof(struct), (struct, self), beyond)
+        return FilmCall(address_of("rf_warming_at"), addressof(struct), (struct, self), beyond, states=1)
 
     def tangent(
         self, x: float, y: float, vx: float, vy: float, speed: float

@@ -141,27 +141,28 @@ class HeatedBearing:
         table = viscosity_table(self.bearing.cooled[0])
         return table.coldest, table.hottest
 
-    def warming_call(self) -> FilmCall | None:
+    def call_with_states(self) -> FilmCall | None:
         """Return force and rate of the temperature for loops in C (`rf_warming_at`); None without one."""
         return None if self._in_balance is None else self._in_balance.warming_call(self.capacity)
 
-    def outputs_over_time(self, temperature: Array, position: Array, velocity: Array, speed: Array) -> Array:
-        """Return the outputs at many temperatures and motions of a film that has a `warming_call`.
+    def outputs_over_time(self, states: Array, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return the outputs at many states and motions of a film that has a `call_with_states`.
 
         Parameters
         ----------
-        temperature, speed : ndarray, shape (n,) [K], [rad/s]
+        states : ndarray, shape (1, n) [K]
         position, velocity : ndarray, shape (2, n) [m], [m/s]
+        speed : ndarray, shape (n,) [rad/s]
 
         Returns
         -------
         ndarray, shape (5, n)
         """
         film, oil = self._at_start, self.bearing.cooled[0]
-        thinner = oil.law.viscosity(temperature) / film.film_viscosity
+        thinner = oil.law.viscosity(states[0]) / film.film_viscosity
         losses = film.losses(position, velocity, speed)
         force = thinner * film.force(position, velocity, speed)
-        return np.array([*force, temperature, thinner * losses.power_loss, losses.side_flow])
+        return np.array([*force, states[0], thinner * losses.power_loss, losses.side_flow])
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on the journal at the start temperature, shape (2, ...) [N]."""

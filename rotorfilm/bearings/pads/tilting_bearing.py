@@ -25,8 +25,10 @@ from ...core.model import Array, Linearization
 from ...core.results import BearingLosses
 from ...core.signals import Signal, force_outputs, journal_inputs
 from ...native import Status
+from ...native.film_call import FilmCall
 from ...native.pad_kernels import TiltingKernel, TiltingPoint
 from ...native.spec import NativeSpec, journal_spec
+from ..films.law import continued
 from ..oil.heated_bearing import HeatedBearing
 from ..reaction import NOMINAL_SPEED, Called, broadcast_state, input_vector, without_overflow
 from .pad_bearing import OwnCenter, PadBearing
@@ -349,6 +351,27 @@ class TiltingPadBearing(Called, PadBearing):
         found = self.evaluated(x, u, slopes=True).slopes
         assert found is not None
         return found
+
+    def call_with_states(self) -> FilmCall | None:
+        """Return force and rates of the pads for loops in C (`rf_tilting_moving`); None of a subclass."""
+        if type(self) is not TiltingPadBearing or self.is_warming:
+            return None
+        return self.kernel.moving(continued(self.kernel.film))
+
+    def outputs_over_time(self, states: Array, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return the outputs at many states and motions, shape (2 + N, n); it warns of nothing.
+
+        Parameters
+        ----------
+        states : ndarray, shape (n_states, n)
+        position, velocity : ndarray, shape (2, n) [m], [m/s]
+        speed : ndarray, shape (n,) [rad/s]
+        """
+        moments = zip(np.array([*position, *velocity, speed]).T, states.T, strict=True)
+        points = [(u, self.kernel.at(u, x)) for u, x in moments]
+        for u, point in points:
+            report_pads(self, point.status, point.pad, u[:2])
+        return np.array([point.outputs for _, point in points]).reshape(-1, len(self.outputs)).T
 
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this bearing; None if its film is no map.

@@ -43,37 +43,44 @@ static int weigh(const rf_journals *journals, int32_t b, const double *state, co
     return status;
 }
 
-/* A film with a temperature: force[2] and slope[2][5], and at its number behind those of all journals the rate. */
-static int warming(const rf_journals *journals, int32_t b, double *state, double *force, double *slope, double *by_speed)
+/* A film with n states: force[2] and slope[2][..], and at their numbers behind the forces of all journals their rates. */
+static int with_states(const rf_journals *journals, int32_t b, int32_t n, double *state, double *force, double *slope,
+                       double *by_speed)
 {
-    const int32_t width = rf_slope_width(journals), behind = 2 * (journals->count - b) + b;
-    double answer[3], jacobian[18];
-    const int status = film_at(journals, b, 2, state, 3, answer, 18, jacobian);
+    const int32_t width = rf_slope_width(journals), behind = 2 * (journals->count - b) + journals->first[b];
+    double answer[2 + RF_FILM_STATES], jacobian[(2 + RF_FILM_STATES) * (5 + RF_FILM_STATES)];
+    const int status = film_at(journals, b, 2, state, 2 + n, answer, (2 + n) * (5 + n), jacobian);
     if (status >= RF_AT_WALL)
         return status;
-    for (int i = 0; i < 3; ++i) {
-        const int32_t row = i < 2 ? i : behind;
+    for (int32_t i = 0; i < 2 + n; ++i) {
+        const int32_t row = i < 2 ? i : behind + i - 2;
+        const double *by = jacobian + (5 + n) * i;
         force[row] = answer[i];
-        for (int j = 0; j < 5; ++j)
-            slope[width * row + j] = jacobian[6 * i + (j < 4 ? j : 5)];
+        for (int32_t j = 0; j < 4 + n; ++j)
+            slope[width * row + j] = by[j < 4 ? j : j + 1];
         if (by_speed)
-            by_speed[row] = jacobian[6 * i + 4];
+            by_speed[row] = by[4];
     }
-    force[behind] += journals->decays[b] * state[5];
-    slope[width * behind + 4] += journals->decays[b];
+    for (int32_t i = 0; i < n; ++i) {
+        force[behind + i] += journals->decay * state[5 + i];
+        slope[width * (behind + i) + 4 + i] += journals->decay;
+    }
     return status;
 }
 
-/* A journal without tilt at x, y, vx, vy and its temperature: force[2], slope[2][4], with more columns for the temperature
+/* A journal without tilt at x, y, vx, vy and the states of its film: force[2], slope[2][4], with more columns for these
    and the acceleration. */
 static int planar(const rf_journals *journals, int32_t b, const double *at, const double *a, const double *turning,
                   double *force, double *slope, double *by_speed)
 {
-    const int32_t width = rf_slope_width(journals);
-    const int warms = journals->decays && journals->decays[b] > 0.0;
-    double state[6] = {at[0], at[1], at[2], at[3], turning[0], warms ? at[4] : turning[1]}, jacobian[10];
-    if (warms)
-        return warming(journals, b, state, force, slope, by_speed);
+    const int32_t width = rf_slope_width(journals), n = rf_film_states(journals, b);
+    double state[5 + RF_FILM_STATES], jacobian[10];
+    memcpy(state, at, 4 * sizeof *at);
+    memcpy(state + 4, turning, 2 * sizeof *turning);
+    if (n > 0) {
+        memcpy(state + 5, at + 4, (size_t)n * sizeof *at);
+        return with_states(journals, b, n, state, force, slope, by_speed);
+    }
     const int status = film_at(journals, b, 2, state, 2, force, 10, jacobian);
     for (int i = 0; i < 2; ++i) {
         for (int j = 0; j < 4; ++j)
@@ -127,18 +134,19 @@ int rf_set_forces(const rf_journals *journals, const double *motion, double spee
     const int32_t points = journals->points, rows = 4 * points, width = rf_slope_width(journals);
     const double turning[2] = {speed, turned};
     int worst = RF_OK;
-    if (journals->decays) { /* journals without a temperature leave theirs as it is */
+    if (journals->first) { /* what a film does not set */
         memset(force, 0, (size_t)rf_force_count(journals) * sizeof *force);
         memset(slope, 0, (size_t)(rf_force_count(journals) * width) * sizeof *slope);
         if (by_speed)
             memset(by_speed, 0, (size_t)rf_force_count(journals) * sizeof *by_speed);
     }
     for (int32_t b = 0; b < journals->count / points; ++b) {
-        double at[8];
+        const int32_t inner = 4 * journals->count + (journals->first ? journals->first[b] : 0);
+        double at[8 + RF_FILM_STATES];
         for (int32_t k = 0; k < rows; ++k)
             at[k] = journals->rest[rows * b + k] + motion[rows * b + k];
-        if (journals->decays)
-            at[4] = journals->rest[4 * journals->count + b] + motion[4 * journals->count + b];
+        for (int32_t k = 0; k < rf_film_states(journals, b); ++k)
+            at[4 + k] = journals->rest[inner + k] + motion[inner + k];
         for (int32_t p = 0; p < points; ++p)
             if (hypot(at[4 * p], at[4 * p + 1]) >= journals->walls[points * b + p])
                 return RF_AT_WALL;

@@ -14,42 +14,52 @@
    and the moment over the arm: then films have states and forces as of rf_tilted_at, or with an arm of 0 as
    before.
 
-   Where the temperature of one of the films is a state, each journal has a temperature behind the motion of all of
-   them, and its rate behind the forces of all of them; it stays where a film has none. Films that have one are rf_warming_at,
-   and their temperatures decay by themselves in the rotor, which is given back here as the springs are. No journal may
-   feel its tilt beside them. */
+   States of films, as a temperature or the tilts of pads, are behind the motion of all journals, and their rates behind
+   the forces of all of them. A film with n states is asked at (x, y, vx, vy, speed, states) and answers 2 forces and n
+   rates with (2 + n) (5 + n) slopes. Its states decay by themselves in the rotor, which is given back here as the springs
+   are. No journal may feel its tilt beside them. */
 typedef struct rf_journals {
     int32_t count;                 /* of points: n */
     int32_t points;                /* of each journal, 1 or 2 */
     const rf_response *films;
     const void *const *of;
-    const double *rest;            /* rf_state_count: motion, and temperatures, about which those of the rotor are counted */
+    const double *rest;            /* rf_state_count: motion, and states of films, about which those of the rotor are counted */
     const double *spring, *damper; /* 2 n [N/m], [N s/m] */
     const double *lengths;         /* n: typical displacements [m] */
     const double *walls;           /* n: eccentricities at which a journal counts as touching [m] */
     const double *arms;            /* n/points: distance of both points from the middle [m] */
     const rf_mass_response *masses; /* n: of what a film adds, or NULL; NULL where no film does */
     const void *const *of_masses;
-    const double *decays;          /* n: of the temperatures of films, 0 without one [1/s]; NULL where no film has one */
+    const int32_t *first;          /* n + 1: among the states of all films, those of each; NULL where no film has any */
+    int32_t most;                  /* states of one film, at most RF_FILM_STATES */
+    double decay;                  /* of each of these states [1/s] */
 } rf_journals;
 
-/* Numbers by which the force of a journal changes: its motion, its temperature, and with added masses its
+#define RF_FILM_STATES 48
+
+/* States of the film of a journal. */
+static inline int32_t rf_film_states(const rf_journals *journals, int32_t b)
+{
+    return journals->first ? journals->first[b + 1] - journals->first[b] : 0;
+}
+
+/* Numbers by which the force of a journal changes: its motion, the states of its film, and with added masses its
    acceleration. */
 static inline int32_t rf_slope_width(const rf_journals *journals)
 {
-    return 4 * journals->points + (journals->decays ? 1 : 0) + (journals->masses ? 2 : 0);
+    return 4 * journals->points + journals->most + (journals->masses ? 2 : 0);
 }
 
-/* Forces of all journals, and rates of their temperatures. */
+/* Forces of all journals, and rates of the states of their films. */
 static inline int32_t rf_force_count(const rf_journals *journals)
 {
-    return (journals->decays ? 3 : 2) * journals->count;
+    return 2 * journals->count + (journals->first ? journals->first[journals->count] : 0);
 }
 
-/* Motion and temperatures of all journals. */
+/* Motion of all journals, and states of their films. */
 static inline int32_t rf_state_count(const rf_journals *journals)
 {
-    return (journals->decays ? 5 : 4) * journals->count;
+    return 4 * journals->count + (journals->first ? journals->first[journals->count] : 0);
 }
 
 /* Add the force of inertia -M a, of a mass (xx, xy, yy), and its slopes by x, y, vx, vy, rows `width` apart. */

@@ -118,21 +118,29 @@ static int set_node_forces(rf_march *march, rf_scratch *at)
     return status > worst ? status : worst;
 }
 
-/* Number k of what the force of a journal changes with, among all rows: its motion, temperature, acceleration. */
+/* Number k of what the force of a journal changes with, among all rows: its motion, states of its film, acceleration; -1
+   where its film has fewer states. */
 static int32_t row_of(const rf_march *march, int32_t journal, int32_t k)
 {
     const rf_journals *journals = &march->journals;
-    const int32_t own = 4 * journals->points, behind = own + (journals->decays ? 1 : 0);
+    const int32_t own = 4 * journals->points, behind = own + journals->most;
+    if (k < own)
+        return own * journal + k;
     if (k < behind)
-        return k < own ? own * journal + k : 4 * journals->count + journal;
+        return k - own < rf_film_states(journals, journal) ? 4 * journals->count + journals->first[journal] + k - own : -1;
     return rf_state_count(journals) + 2 * journal + k - behind;
 }
 
-/* The journal of one of the forces of all, and of the rates of their temperatures behind them. */
+/* The journal of one of the forces of all, and of the rates of the states of their films behind them. */
 static int32_t journal_of(const rf_march *march, int32_t force)
 {
-    const int32_t forces = 2 * march->journals.count;
-    return force < forces ? force / (2 * march->journals.points) : force - forces;
+    const int32_t forces = 2 * march->journals.count, inner = force - forces;
+    if (inner < 0)
+        return force / (2 * march->journals.points);
+    int32_t journal = 0;
+    while (march->journals.first[journal + 1] <= inner)
+        ++journal;
+    return journal;
 }
 
 /* Solve the linear equations of Newton's method for the unknowns at so many nodes; a status. */
@@ -149,7 +157,10 @@ static int solve_equations(const rf_march *march, int32_t s, const double *by_ch
         for (int32_t j = 0; j < s; ++j)
             for (int32_t k = 0; k < width; ++k) {
                 const double slope = at->slope[width * of + k];
-                const double *gain = gains + ((i * s + j) * rows + row_of(march, journal, k)) * stride;
+                const int32_t of_row = row_of(march, journal, k);
+                if (of_row < 0)
+                    continue;
+                const double *gain = gains + ((i * s + j) * rows + of_row) * stride;
                 for (int32_t c = 0; c < each; ++c)
                     to[j * each + c] -= slope * gain[c];
             }

@@ -1,6 +1,7 @@
 #include "tilting.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "../films/map_frame.h"
@@ -237,6 +238,27 @@ int rf_tilting_at(const rf_tilting *bearing, const double *u, const double *x, d
             add_slopes(bearing, k, &found, by, place, slopes);
     }
     return worst;
+}
+
+int rf_tilting_moving(const void *of, const double *state, double *answer, double *by)
+{
+    const rf_tilting *bearing = of;
+    const size_t n = rf_tilting_states(bearing), outputs = 2 + bearing->count, all = n + outputs;
+    double *y = malloc((outputs + all * (n + 5)) * sizeof *y);
+    if (!y)
+        return RF_MEMORY;
+    double *const C = y + outputs, *const A = C + outputs * n, *const D = A + n * n, *const B = D + 5 * outputs;
+    const rf_tilting_slopes slopes = {A, B, C, D};
+    size_t pad;
+    const int status = rf_tilting_at(bearing, state, state + 5, answer + 2, y, &slopes, &pad);
+    memcpy(answer, y, 2 * sizeof *answer);
+    for (size_t i = 0; i < 2 + n; ++i) {
+        const double *by_u = i < 2 ? D + 5 * i : B + 5 * (i - 2), *by_x = i < 2 ? C + n * i : A + n * (i - 2);
+        memcpy(by + (5 + n) * i, by_u, 5 * sizeof *by);
+        memcpy(by + (5 + n) * i + 5, by_x, n * sizeof *by);
+    }
+    free(y);
+    return status;
 }
 
 int rf_tilting_forces(const rf_tilting *bearing, size_t n, const double *u, const double *q, const double *rate,
