@@ -207,6 +207,8 @@ def main() -> None:
         draw(given.out)
         for row in work_and_precision():
             print("{} {:.4f} s, error {:.1e}".format(*row))
+        if not given.scenes:
+            return
         for name, row in zip(
             ("force", "power", "estimate over error"), one_number(given.scenes), strict=True
         ):

@@ -12,7 +12,7 @@ a rotor that is free to move would have no complete set of modes. Of each conjug
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterable, Mapping, Sequence
 from ctypes import byref
 from dataclasses import replace
 from typing import Any, NamedTuple, cast
@@ -360,16 +360,18 @@ def _linear_reactions(
     """Return bearings with a part in the linear equations, in the order of their states."""
     every = []
     for name, bearing in bearings.items():
-        if has_states_in_c(bearing):
-            n = len(bearing.states)
-            system = Linearization(-DECAY * np.eye(n), np.zeros((n, 4)), np.zeros((2, n)), np.zeros((2, 4)))
-        else:
-            system = port.linear_system(bearing, speeds)
+        system = _decay(bearing) if has_states_in_c(bearing) else port.linear_system(bearing, speeds)
         if system is not None:
             still = np.zeros(2)
             mass = port.mass_of(bearing, still, still, speeds[0])
             every.append(StationEquations(name, bearing, system, freedom_rows(structure, name), mass))
     return tuple(every)
+
+
+def _decay(film: Any) -> Linearization:
+    """Return the equations of the states of a film that fall by themselves."""
+    n = len(film.states)
+    return Linearization(-DECAY * np.eye(n), np.zeros((n, 4)), np.zeros((2, n)), np.zeros((2, 4)))
 
 
 def _structure(rotor: Dynamic) -> tuple[Structure, SpeedProfile]:
@@ -763,23 +765,30 @@ SUDDEN = 2.0
 """Ratio of the response of a shape to a force that begins at once to that to a slow one."""
 
 
-def starts(
-    mounted: MountedRotor, state: Array, *, whole: bool
-) -> Iterator[tuple[MountedRotor, Array, NeglectedMotion | None]]:
+FALLS = 2.0
+"""Power of their frequency with which the motion of neglected shapes is expected to fall."""
+
+Start = tuple[MountedRotor, Array, "NeglectedMotion | None"]
+"""A rotor in some shapes, its state at t = 0, and what these shapes do not show; None if it is whole."""
+
+
+def starts(mounted: MountedRotor, state: Array, *, whole: bool) -> Generator[Start, float, None]:
     """Yield a rotor in ever more of its shapes, and whole in the end or at once.
 
-    With each come its state at t = 0, and what the shapes do not show; None for the whole rotor.
+    It is to be sent how many times too large the motion of the neglected shapes was.
     """
     bare: Any = mounted.bare
     rotor = _inner(mounted) if type(bare) is MotorDrivenRotor else bare
     if not whole and isinstance(rotor, FlexibleRotor) and rotor.assembly.hysteresis is None:
-        for model in models(rotor, FREQUENCY * bare.nominal_speed):
-            if model.space is None:
-                break
+        frequency = FREQUENCY * bare.nominal_speed
+        while (model := next(models(rotor, frequency))).space is not None:
             small: Any = MatrixRotor(rotor, model.structure)
             small = mount(small if rotor is bare else replace(bare, rotor=small), mounted.all_bearings)
             begun = _within(model, state)
-            yield small, begun, neglected_motion(model, take_apart(small, over_time=True), state, begun)
+            unseen = neglected_motion(model, take_apart(small, over_time=True), state, begun)
+            excess = yield small, begun, unseen
+            doublings = max(1, round(math.log2(excess) / FALLS)) if math.isfinite(excess) else 1
+            frequency = max(frequency, 1.0) * 2.0**doublings
     yield mounted, state, None
 
 

@@ -16,7 +16,14 @@
 #include "loops/shake.h"
 #include "loops/springs.h"
 
-enum { STAGES = 2, JOURNALS = 2, MODES = 4, ROWS = 4 * JOURNALS + 2, CHANNELS = 2 * JOURNALS + 3, SAMPLES = 9 };
+enum { STAGES = 2, JOURNALS = 2, SAMPLES = 9, MOST_STATES = 3, MOST_MODES = 4 + MOST_STATES,
+       MOST_ROWS = 4 * JOURNALS + 2 + MOST_STATES, MOST_CHANNELS = 2 * JOURNALS + 3 + MOST_STATES };
+
+/* States of both films together, and with them modes, rows and channels of the rotor. */
+static int states;
+#define MODES (4 + states)
+#define ROWS (4 * JOURNALS + 2 + states)
+#define CHANNELS (2 * JOURNALS + 3 + states)
 
 static uint64_t seed = 88172645463325252u;
 
@@ -155,32 +162,38 @@ static void try_ring(const rf_ring *ring)
     free(field);
 }
 
+#define DECAY 1.0
+
 /* Two masses m on a spring and a damper in either direction: z' = lambda z - i f/(m Im lambda), x = Re z. The last
    two rows are the acceleration of the unbalance on the first one, which a motor may turn. */
 typedef struct masses {
-    rf_complex values[MODES], push[MODES * CHANNELS], sense[ROWS * MODES], rates[2 * MODES];
-    double direct[ROWS * CHANNELS];
+    rf_complex values[MOST_MODES], push[MOST_MODES * MOST_CHANNELS], sense[MOST_ROWS * MOST_MODES], rates[2 * MOST_MODES];
+    double direct[MOST_ROWS * MOST_CHANNELS];
 } masses;
 
 static void set_masses(masses *of, double mass, double decay, double turn)
 {
     memset(of, 0, sizeof *of);
-    for (int m = 0; m < MODES; ++m) {
+    for (int m = 0; m < 4; ++m) {
         const rf_complex value = {-decay, turn}, one = {1.0, 0.0}, push = {0.0, -1.0 / (mass * turn)};
         of->values[m] = value;
         of->push[m * CHANNELS + m] = push;
         if (m < 2) {
             const rf_complex squared = {1e-3 * (decay * decay - turn * turn), -2e-3 * decay * turn};
-            double *direct = of->direct + (4 * JOURNALS + m) * CHANNELS;
-            of->push[m * CHANNELS + 2 * JOURNALS + m].im = 1e-3 * push.im;
+            double *direct = of->direct + (4 * JOURNALS + states + m) * CHANNELS;
+            of->push[m * CHANNELS + 2 * JOURNALS + states + m].im = 1e-3 * push.im;
             of->rates[m * MODES + m].re = 1e-3 * value.re;
             of->rates[m * MODES + m].im = 1e-3 * value.im;
-            of->sense[(4 * JOURNALS + m) * MODES + m] = squared;
+            of->sense[(4 * JOURNALS + states + m) * MODES + m] = squared;
             direct[m] = 1e-3 / mass;
-            direct[2 * JOURNALS + m] = 1e-6 / mass;
+            direct[2 * JOURNALS + states + m] = 1e-6 / mass;
         }
         of->sense[(4 * (m / 2) + m % 2) * MODES + m] = one;
         of->sense[(4 * (m / 2) + 2 + m % 2) * MODES + m] = value;
+    }
+    for (int k = 0; k < states; ++k) {
+        of->values[4 + k].re = -DECAY;
+        of->push[(4 + k) * CHANNELS + 2 * JOURNALS + k].re = of->sense[(4 * JOURNALS + k) * MODES + 4 + k].re = 1.0;
     }
 }
 
@@ -214,17 +227,18 @@ static void try_march(const rf_response *films, const void *const *of, int is_fr
 {
     rf_step_table tables[RF_SLOTS + 1];
     masses rotor;
-    double rest[ROWS] = {0.0}, spring[4] = {0.0}, damper[4] = {0.0}, lengths[] = {1e-4, 1e-4}, scales[ROWS];
+    double rest[MOST_ROWS] = {0.0}, spring[4] = {0.0}, damper[4] = {0.0}, lengths[] = {1e-4, 1e-4}, scales[MOST_ROWS];
     const double walls[] = {1e-4, is_free ? HUGE_VAL : 1e-4}, arms[JOURNALS] = {0.0}, duration = 0.02;
     const double speeds[] = {about(300.0, odd), about(300.0, odd)}, times[] = {0.0, 0.5 * duration};
     const double slopes[] = {(speeds[1] - speeds[0]) / times[1], 0.0};
     const double angles[] = {0.0, 0.5 * times[1] * (speeds[0] + speeds[1])};
-    rf_complex z[MODES], begun[MODES], out[SAMPLES * MODES];
-    double grid[SAMPLES], turns[3 * SAMPLES], turned[4 * MODES * MODES], turned_rest[2 * MODES];
+    rf_complex z[MOST_MODES], begun[MOST_MODES], out[SAMPLES * MOST_MODES];
+    double grid[SAMPLES], turns[3 * SAMPLES], turned[4 * MOST_MODES * MOST_MODES] = {0.0}, turned_rest[2 * MOST_MODES] = {0.0};
+    const int32_t first[] = {0, 1, MOST_STATES};
     for (int k = 0; k < 4 * MODES * MODES; ++k)
-        turned[k] = about(0.5, odd);
+        turned[k] = k / (2 * MODES) % MODES < 4 ? about(0.5, odd) : 0.0; /* the speed does nothing to a film's states */
     for (int k = 0; k < 2 * MODES; ++k)
-        turned_rest[k] = about(1e-6, odd);
+        turned_rest[k] = k % MODES < 4 ? about(1e-6, odd) : 0.0;
     for (int k = 0; k <= RF_SLOTS; ++k)
         tables[k] = new_table();
     const double decay = 400.0 * uniform(), turn = 100.0 + 900.0 * uniform();
@@ -232,7 +246,7 @@ static void try_march(const rf_response *films, const void *const *of, int is_fr
     if (is_free)
         memset(rotor.push, 0, sizeof rotor.push);
     for (int q = 0; q < ROWS; ++q)
-        scales[q] = q >= 4 * JOURNALS ? 0.0 : q % 4 < 2 ? 1e4 : 1e2;
+        scales[q] = q >= ROWS - 2 ? 0.0 : q >= 4 * JOURNALS ? 1e4 : q % 4 < 2 ? 1e4 : 1e2;
     for (int m = 0; m < MODES; ++m) {
         z[m].re = begun[m].re = about(5e-5, odd);
         z[m].im = begun[m].im = about(5e-5, odd);
@@ -242,7 +256,8 @@ static void try_march(const rf_response *films, const void *const *of, int is_fr
     rf_march march = {
         {MODES, CHANNELS, ROWS, rotor.values, rotor.push, rotor.sense, rotor.direct, rotor.rates},
         {STAGES, NODES, LAGRANGE, REMAINDER},
-        {JOURNALS, 1, films, of, rest, spring, damper, lengths, walls, arms, NULL, NULL, NULL},
+        {JOURNALS, 1, films, of, rest, spring, damper, lengths, walls, arms, NULL, NULL,
+         states ? first : NULL, states ? 2 : 0, DECAY},
         {2, times, speeds, slopes, angles},
         {about(300.0, odd), is_free || uniform() < 0.5 ? NULL : turned, turned_rest},
         .scales = scales, .longest = duration / 3.0, .shortest = 1e-13 * duration,
@@ -337,6 +352,36 @@ static int plain(const void *of, const double *state, double *f, double *jacobia
     return rf_journal_at(of, state, f, jacobian);
 }
 
+/* A film with states: they push the journal a little, and follow it. */
+typedef struct following {
+    const rf_journal *film;
+    int states;
+} following;
+
+static int follow(const void *of, const double *state, double *f, double *by)
+{
+    const following *self = of;
+    const int n = self->states, width = 5 + n;
+    double slopes[10] = {0.0};
+    const int status = rf_journal_at(self->film, state, f, slopes);
+    memset(by, 0, (size_t)((2 + n) * width) * sizeof *by);
+    for (int i = 0; i < 2; ++i) {
+        memcpy(by + i * width, slopes + 5 * i, 5 * sizeof *by);
+        for (int k = 0; k < n; ++k) {
+            f[i] += 10.0 * state[5 + k];
+            by[i * width + 5 + k] = 10.0;
+        }
+    }
+    for (int k = 0; k < n; ++k) {
+        double *row = by + (2 + k) * width;
+        f[2 + k] = 300.0 * (state[k] - state[5 + k]) + 1e-4 * state[4];
+        row[k] = 300.0;
+        row[5 + k] = -300.0;
+        row[4] = 1e-4;
+    }
+    return status;
+}
+
 int main(int argc, char **argv)
 {
     const long count = argc > 2 ? atol(argv[2]) : 0;
@@ -346,6 +391,9 @@ int main(int argc, char **argv)
     read_ring(argv[1], &ring);
     const rf_journal journal = {rf_short_film, &thin, 1e-4, 0.4, 0.0, 0}, round = {rf_ring_film, &ring, 1e-4, 0.4, 0.0, 0};
     const rf_sprung sprung = {plain, &journal, 1e6, 1};
+    const following one = {&journal, 1}, two = {&journal, 2};
+    const rf_response with_states[] = {follow, follow};
+    const void *const of_states[] = {&one, &two};
     for (long n = 0; n < count; ++n) {
         const double odd = n % 2 ? 0.05 : 0.0;
         const rf_response films[] = {plain, rf_sprung_at}, none_of[] = {rf_springs_at, rf_springs_at};
@@ -353,6 +401,9 @@ int main(int argc, char **argv)
         try_ring(&ring);
         try_march(none_of, nothing, 1, odd);
         try_march(films, of, 0, odd);
+        states = MOST_STATES;
+        try_march(with_states, of_states, 0, odd);
+        states = 0;
         try_shaken(rf_sprung_at, &sprung, odd);
         try_shaken(plain, n % 8 ? &journal : &round, odd);
         try_ride(odd);

@@ -24,7 +24,7 @@ LARGEST = {
     "rotorfilm_heat": 122_000,
     "rotorfilm_pads": 84_000,
     "rotorfilm_oil": 122_000,
-    "rotorfilm_loops": 458_000,
+    "rotorfilm_loops": 472_000,
     "rotorfilm_master": 405_000,
 }
 """Bytes of each library on Linux, x86_64: what it has, and some room for other compilers."""

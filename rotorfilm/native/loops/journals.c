@@ -68,17 +68,17 @@ static int with_states(const rf_journals *journals, int32_t b, int32_t n, double
     return status;
 }
 
-/* A journal without tilt at x, y, vx, vy and the states of its film: force[2], slope[2][4], with more columns for these
+/* A journal without tilt at x, y, vx, vy and the states of its film and rates near theirs: force[2], slope[2][4], with more columns for these
    and the acceleration. */
 static int planar(const rf_journals *journals, int32_t b, const double *at, const double *a, const double *turning,
                   double *force, double *slope, double *by_speed)
 {
     const int32_t width = rf_slope_width(journals), n = rf_film_states(journals, b);
-    double state[5 + RF_FILM_STATES], jacobian[10];
+    double state[5 + 2 * RF_FILM_STATES], jacobian[10];
     memcpy(state, at, 4 * sizeof *at);
     memcpy(state + 4, turning, 2 * sizeof *turning);
     if (n > 0) {
-        memcpy(state + 5, at + 4, (size_t)n * sizeof *at);
+        memcpy(state + 5, at + 4, 2 * (size_t)n * sizeof *at);
         return with_states(journals, b, n, state, force, slope, by_speed);
     }
     const int status = film_at(journals, b, 2, state, 2, force, 10, jacobian);
@@ -128,8 +128,8 @@ static int tilted(const rf_journals *journals, int32_t b, const double *at, doub
     return status;
 }
 
-int rf_set_forces(const rf_journals *journals, const double *motion, double speed, double turned, double *force,
-                  double *slope, double *by_speed)
+int rf_set_forces(const rf_journals *journals, const double *motion, double speed, double turned, const double *near,
+                  double *force, double *slope, double *by_speed)
 {
     const int32_t points = journals->points, rows = 4 * points, width = rf_slope_width(journals);
     const double turning[2] = {speed, turned};
@@ -141,12 +141,15 @@ int rf_set_forces(const rf_journals *journals, const double *motion, double spee
             memset(by_speed, 0, (size_t)rf_force_count(journals) * sizeof *by_speed);
     }
     for (int32_t b = 0; b < journals->count / points; ++b) {
-        const int32_t inner = 4 * journals->count + (journals->first ? journals->first[b] : 0);
-        double at[8 + RF_FILM_STATES];
+        const int32_t first = journals->first ? journals->first[b] : 0, inner = 4 * journals->count + first;
+        const int32_t states = rf_film_states(journals, b);
+        double at[8 + 2 * RF_FILM_STATES];
         for (int32_t k = 0; k < rows; ++k)
             at[k] = journals->rest[rows * b + k] + motion[rows * b + k];
-        for (int32_t k = 0; k < rf_film_states(journals, b); ++k)
+        for (int32_t k = 0; k < states; ++k) {
             at[4 + k] = journals->rest[inner + k] + motion[inner + k];
+            at[4 + states + k] = near ? near[2 * journals->count + first + k] - journals->decay * at[4 + k] : NAN;
+        }
         for (int32_t p = 0; p < points; ++p)
             if (hypot(at[4 * p], at[4 * p + 1]) >= journals->walls[points * b + p])
                 return RF_AT_WALL;
@@ -179,7 +182,7 @@ int rf_journal_forces(const rf_journals *journals, int64_t samples, const double
     for (int64_t n = 0; n < samples && worst < RF_AT_WALL; ++n) {
         for (int32_t q = 0; q < 2 * forces; ++q)
             now[q] = motion[q * samples + n];
-        const int status = rf_set_forces(journals, now, speed, 0.0, answer, by, NULL);
+        const int status = rf_set_forces(journals, now, speed, 0.0, NULL, answer, by, NULL);
         worst = status > worst ? status : worst;
         for (int32_t q = 0; q < forces; ++q)
             force[q * samples + n] = answer[q];

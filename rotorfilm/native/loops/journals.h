@@ -15,8 +15,8 @@
    before.
 
    States of films, as a temperature or the tilts of pads, are behind the motion of all journals, and their rates behind
-   the forces of all of them. A film with n states is asked at (x, y, vx, vy, speed, states) and answers 2 forces and n
-   rates with (2 + n) (5 + n) slopes. Its states decay by themselves in the rotor, which is given back here as the springs
+   the forces of all of them. A film with n states is asked at (x, y, vx, vy, speed, states, rates) and answers 2 forces and n
+   rates with (2 + n) (5 + n) slopes; the rates that it is given are near those, or NaN, and it may begin there. Its states decay by themselves in the rotor, which is given back here as the springs
    are. No journal may feel its tilt beside them. */
 typedef struct rf_journals {
     int32_t count;                 /* of points: n */
@@ -75,9 +75,9 @@ static inline void rf_add_inertia(const double *mass, const double *slopes, cons
 
 /* Films' forces and springs (rf_force_count) at one motion (rf_state_count, and with added masses 2 n accelerations), and
    slopes by that of the same journal (rf_force_count x rf_slope_width); the most severe status. `turned` is the angle of the shaft, which
-   films without tilt find behind their state. Slopes by the speed go to `by_speed` (as many as forces) unless it is NULL. */
-int rf_set_forces(const rf_journals *journals, const double *motion, double speed, double turned, double *force,
-                  double *slope, double *by_speed);
+   films without tilt find behind their state. `near` is about what `force` becomes, for films with states, or NULL. Slopes by the speed go to `by_speed` (as many as forces) unless it is NULL. */
+int rf_set_forces(const rf_journals *journals, const double *motion, double speed, double turned, const double *near,
+                  double *force, double *slope, double *by_speed);
 
 /* Forces of films and springs (2 n rows) and slopes by x, y, vx, vy (2 n x 4 points rows) of motions (4 n
    rows), rows of `samples`, at one speed; the most severe status. */

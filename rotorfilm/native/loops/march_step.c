@@ -6,6 +6,7 @@
 
 #include "../films/map_frame.h"
 #include "../solvers/dense.h"
+#include "film_states.h"
 #include "motor.h"
 #include "spin.h"
 
@@ -27,11 +28,11 @@ int rf_open_scratch(rf_scratch *at, const rf_march *march)
     const size_t drives = march->spin.matrix ? 2 * modes : 0;
     const size_t sizes[] = {s * channels, s * channels, channels, 2 * modes, s * rows, s * rows,  s * rows,
                             s, s, all, wide * all, s * drives, s * drives, drives, s * drives, size * size,
-                            size, s, 2 * s, s, all, driven, 2 * modes * s, 2 * modes * s};
+                            size, s, 2 * s, s, all, driven, rf_states_size(&march->journals, s, each), 2 * modes * s, 2 * modes * s};
     double **const places[] = {&at->u,      &at->guess, &at->start, &at->both,   &at->free, &at->motion,
                                &at->before, &at->speed, &at->turned, &at->force, &at->slope, &at->drive,
                                &at->drive_before, &at->drive_start, &at->push, &at->matrix, &at->right,
-                               &at->time, &at->torque, &at->damping, &at->by_speed, &at->gain};
+                               &at->time, &at->torque, &at->damping, &at->by_speed, &at->gain, &at->states};
     const size_t count = sizeof sizes / sizeof *sizes, named = sizeof places / sizeof *places;
     size_t total = 0;
     for (size_t k = 0; k < count; ++k)
@@ -107,6 +108,7 @@ static int set_node_forces(rf_march *march, rf_scratch *at)
     int worst = RF_OK;
     for (int32_t i = 0; i < march->scheme.stages; ++i) {
         const int status = rf_set_forces(&march->journals, at->motion + i * rows, at->speed[i], at->turned[i],
+                                         at->guess + i * march->rotor.channels,
                                          at->force + i * forces, at->slope + slopes * i,
                                          march->motor.torque ? at->by_speed + i * forces : NULL);
         march->films += 1;
@@ -149,6 +151,8 @@ static int solve_equations(const rf_march *march, int32_t s, const double *by_ch
     const int32_t channels = march->rotor.channels, rows = march->rotor.rows, width = rf_slope_width(&march->journals);
     const int32_t forces = rf_force_count(&march->journals);
     const int32_t each = unknowns(march), size = s * each, stride = each > forces ? each : channels;
+    const int32_t planar = 2 * march->journals.count, own = 4 * march->journals.points;
+    const int32_t behind = own + march->journals.most;
     const double *gains = each > forces ? rf_set_driven_gain(march, s, by_channel, at) : by_channel;
     memset(at->matrix, 0, (size_t)size * (size_t)size * sizeof *at->matrix);
     for (int32_t of = 0; of < s * forces; ++of) {
@@ -157,19 +161,25 @@ static int solve_equations(const rf_march *march, int32_t s, const double *by_ch
         for (int32_t j = 0; j < s; ++j)
             for (int32_t k = 0; k < width; ++k) {
                 const double slope = at->slope[width * of + k];
-                const int32_t of_row = row_of(march, journal, k);
+                const int32_t of_row = row_of(march, journal, k), inner = k >= own && k < behind;
                 if (of_row < 0)
                     continue;
                 const double *gain = gains + ((i * s + j) * rows + of_row) * stride;
-                for (int32_t c = 0; c < each; ++c)
+                const int32_t first = inner ? of_row - planar : 0, last = inner ? first + 1 : planar;
+                for (int32_t c = first; c < last; ++c) /* a state follows its own rate alone */
                     to[j * each + c] -= slope * gain[c];
+                if (each > forces)
+                    to[(j + 1) * each - 1] -= slope * gain[each - 1];
             }
         to[row] += 1.0;
         at->right[row] = at->force[of] - at->guess[i * channels + r];
     }
     if (each > forces)
         rf_add_motor_equations(march, s, gains, at);
-    rf_eliminate((size_t)size, at->matrix, 1, at->right);
+    if (march->journals.first)
+        rf_solve_with_states(&march->journals, s, each, at->matrix, at->right, at->states);
+    else
+        rf_eliminate((size_t)size, at->matrix, 1, at->right);
     return rf_is_broken(at->right, size) ? RF_NOT_FINITE : RF_OK;
 }
 
@@ -324,7 +334,7 @@ int rf_set_start(rf_march *march, rf_scratch *at)
         rf_set_drive_start(march, at->speed[0], at);
     rf_add_direct(march, at->guess, march->spin.matrix ? at->drive_start : NULL, at->motion);
     memcpy(at->start, at->guess, (size_t)march->rotor.channels * sizeof *at->start);
-    const int status = rf_set_forces(&march->journals, at->motion, at->speed[0], at->turned[0], at->start, at->slope,
+    const int status = rf_set_forces(&march->journals, at->motion, at->speed[0], at->turned[0], NULL, at->start, at->slope,
                                      march->motor.torque ? at->by_speed : NULL);
     memcpy(at->force, at->start, (size_t)forces * sizeof *at->force);
     if (!march->rotor.direct || status >= RF_AT_WALL)

@@ -17,6 +17,7 @@ typedef struct rf_scratch {
     double *drive, *drive_before; /* s x 2 modes: what spin.h adds, in this step and in the last one */
     double *drive_start, *push;   /* 2 modes: at the start; s x 2 modes: all that acts on the modes */
     double *matrix, *right; /* unknowns squared, and as many as one row or all channels */
+    double *states;         /* of film_states.h */
     rf_complex *forced;     /* modes x s: what the forces of a step do to each mode, by powers of time */
     rf_complex *weights;    /* modes x s */
     double *memory;

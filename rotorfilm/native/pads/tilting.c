@@ -69,11 +69,17 @@ static void idle(const rf_tilting *b, const double *z, double w_n, double *w, do
 }
 
 /* The source of a pad without inertia that has a film: along n it is given, or pushes the spring of the pivot. */
-static int follow(const rf_tilting *b, const double *z, int sprung, double *w, double *f, double *J,
+static int follow(const rf_tilting *b, const double *z, const double *rates, int sprung, double *w, double *f, double *J,
                   double by_w[2][LOCALS])
 {
     w[0] = sprung ? 1.0 : z[GIVEN_N];
-    const int status = rf_pad_follow(&b->pad, z, w, f, J);
+    double near = 0.0;
+    if (rates) {
+        const double along = z[GIVEN_N] + rates[1] / b->clearance;
+        near = (z[GIVEN_T] + rates[0] / b->clearance) / (sprung ? along : 1.0);
+        rates = along > 0.0 ? rates : NULL;
+    }
+    const int status = rf_pad_follow(&b->pad, z, rates ? &near : NULL, w, f, J);
     if (status > RF_OUTSIDE)
         return status;
     const double turn = w[1] / w[0], by_turn = -J[6] / J[7];
@@ -101,8 +107,9 @@ static int follow(const rf_tilting *b, const double *z, int sprung, double *w, d
     return status;
 }
 
-/* Pads without inertia: no moment, and on springs no more force than they have. */
-static int without_inertia(const rf_tilting *b, const double *z, local *out)
+/* Pads without inertia: no moment, and on springs no more force than they have. `rates` of tilt and pivot are about what
+   is to be found, or NULL. */
+static int without_inertia(const rf_tilting *b, const double *z, const double *rates, local *out)
 {
     const int sprung = b->spring > 0.0;
     double w[3] = {0.0, 0.0, z[RATE]}, f[2] = {0.0, 0.0}, J[10] = {0.0}, by_w[2][LOCALS] = {{0.0}};
@@ -110,7 +117,7 @@ static int without_inertia(const rf_tilting *b, const double *z, local *out)
     if (status != RF_OK)
         return status;
     if (sprung ? z[PIVOT] < 0.0 : z[GIVEN_N] > 0.0)
-        status = follow(b, z, sprung, w, f, J, by_w);
+        status = follow(b, z, rates, sprung, w, f, J, by_w);
     else
         idle(b, z, fmin(z[GIVEN_N], 0.0), w, by_w);
     take_force(b, f, J, by_w, out);
@@ -195,8 +202,9 @@ static void add_slopes(const rf_tilting *b, size_t k, const local *found, double
     add_row(found->by[ALONG], by, -1.0, place, none, to->C + (2 + k) * states, to->D + 5 * (2 + k));
 }
 
-int rf_tilting_at(const rf_tilting *bearing, const double *u, const double *x, double *dx, double *y,
-                  const rf_tilting_slopes *slopes, size_t *pad)
+/* As rf_tilting_at, with rates near those of the states, or NULL. */
+static int tilting_near(const rf_tilting *bearing, const double *u, const double *x, const double *near, double *dx, double *y,
+                        const rf_tilting_slopes *slopes, size_t *pad)
 {
     const size_t states = rf_tilting_states(bearing), outputs = 2 + bearing->count;
     int worst = RF_OK;
@@ -210,15 +218,17 @@ int rf_tilting_at(const rf_tilting *bearing, const double *u, const double *x, d
     }
     for (size_t k = 0; k < bearing->count; ++k) {
         size_t place[4];
-        double own[4], z[LOCALS], by[LOCALS][GLOBALS];
+        double own[4], z[LOCALS], by[LOCALS][GLOBALS], rates[2] = {0.0, 0.0};
         local found;
         set_places(bearing, k, states, place);
         for (int i = 0; i < 4; ++i)
             own[i] = place[i] < states ? x[place[i]] : 0.0;
+        for (int i = 0; near && i < 2; ++i)
+            rates[i] = place[i] < states ? near[place[i]] : 0.0;
         set_local(bearing, k, u, own, z, by);
         const int status = rf_is_broken(z, LOCALS) ? RF_NOT_FINITE
                            : bearing->inertia > 0.0 ? with_inertia(bearing, z, &found)
-                                                    : without_inertia(bearing, z, &found);
+                                                    : without_inertia(bearing, z, near ? rates : NULL, &found);
         if (status > worst) {
             worst = status;
             *pad = k;
@@ -240,6 +250,12 @@ int rf_tilting_at(const rf_tilting *bearing, const double *u, const double *x, d
     return worst;
 }
 
+int rf_tilting_at(const rf_tilting *bearing, const double *u, const double *x, double *dx, double *y,
+                  const rf_tilting_slopes *slopes, size_t *pad)
+{
+    return tilting_near(bearing, u, x, NULL, dx, y, slopes, pad);
+}
+
 int rf_tilting_moving(const void *of, const double *state, double *answer, double *by)
 {
     const rf_tilting *bearing = of;
@@ -249,8 +265,9 @@ int rf_tilting_moving(const void *of, const double *state, double *answer, doubl
         return RF_MEMORY;
     double *const C = y + outputs, *const A = C + outputs * n, *const D = A + n * n, *const B = D + 5 * outputs;
     const rf_tilting_slopes slopes = {A, B, C, D};
+    const double *near = isnan(state[5 + n]) ? NULL : state + 5 + n;
     size_t pad;
-    const int status = rf_tilting_at(bearing, state, state + 5, answer + 2, y, &slopes, &pad);
+    const int status = tilting_near(bearing, state, state + 5, near, answer + 2, y, &slopes, &pad);
     memcpy(answer, y, 2 * sizeof *answer);
     for (size_t i = 0; i < 2 + n; ++i) {
         const double *by_u = i < 2 ? D + 5 * i : B + 5 * (i - 2), *by_x = i < 2 ? C + n * i : A + n * (i - 2);

@@ -34,8 +34,8 @@ typedef struct rf_tilting_slopes {
 RF_EXPORT_LOOP int rf_tilting_at(const rf_tilting *bearing, const double *u, const double *x, double *dx, double *y,
                             const rf_tilting_slopes *slopes, size_t *pad);
 
-/* The same of an rf_tilting as a film with states (../loops/journals.h): at (x, y, vx, vy, speed, states), the force and
-   the rates of the states, with slopes; RF_MEMORY too. */
+/* The same of an rf_tilting as a film with states (../loops/journals.h): at (x, y, vx, vy, speed, states, rates near
+   those of the states), the force and the rates of the states, with slopes; RF_MEMORY too. */
 RF_EXPORT_LOOP int rf_tilting_moving(const void *of, const double *state, double *answer, double *by);
 
 /* Forces f (2 x n) on the journal for n rows of u (5 x n), tilts q and their rates (count x n), pivots in their place.

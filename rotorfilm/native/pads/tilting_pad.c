@@ -106,11 +106,22 @@ static double narrow_follow(const rf_tilting_pad *pad, const double *e, double w
     return w_t;
 }
 
-int rf_pad_follow(const rf_tilting_pad *pad, const double *e, double *w, double *f, double *jacobian)
+int rf_pad_follow(const rf_tilting_pad *pad, const double *e, const double *near, double *w, double *f, double *jacobian)
 {
     double low = -HUGE_VAL, high = HUGE_VAL, by[10] = {0.0};
     if (!(rf_pad_least(pad, e) > 0.0))
         return rf_fail(RF_AT_WALL, f, jacobian, 8);
+    if (near) {
+        w[1] = *near;
+        const int status = rf_pivoted_film(pad, e, w, f, jacobian);
+        const double step = -f[1] / jacobian[7];
+        if (status <= RF_OUTSIDE && fabs(step) <= RF_PAD_NEAR * (fabs(w[1]) + w[0])) {
+            w[1] += step;
+            f[0] += jacobian[3] * step;
+            f[1] = 0.0;
+            return status;
+        }
+    }
     w[1] = narrow_follow(pad, e, w[0]);
     for (int step = 0; step < HALVINGS; ++step) {
         const double width = high - low;
@@ -120,12 +131,12 @@ int rf_pad_follow(const rf_tilting_pad *pad, const double *e, double *w, double 
         /* The moment falls with w_t all along. */
         *(f[1] > 0.0 ? &low : &high) = w[1];
         double next = w[1] - f[1] / by[7];
-        const double near = ROUNDOFF * (fabs(w[1]) + w[0]);
+        const double left = ROUNDOFF * (fabs(w[1]) + w[0]);
         const int bounded = isfinite(low) && isfinite(high);
-        const int slow = bounded && step >= FREE && high - low > 0.5 * width && !(fabs(next - w[1]) <= near);
+        const int slow = bounded && step >= FREE && high - low > 0.5 * width && !(fabs(next - w[1]) <= left);
         if (slow || !(next >= low && next <= high))
             next = bounded ? 0.5 * (low + high) : w[1] + copysign(w[0] + fabs(w[1]), f[1]);
-        if (f[1] == 0.0 || fabs(next - w[1]) <= near) {
+        if (f[1] == 0.0 || fabs(next - w[1]) <= left) {
             for (int k = 0; jacobian && k < 10; ++k)
                 jacobian[k] = by[k];
             f[1] = 0.0;

@@ -11,6 +11,7 @@
 #include "../films/film.h"
 
 #define RF_PAD_NODES 5
+#define RF_PAD_NEAR 1e-4
 
 typedef struct rf_tilting_pad {
     rf_film film; /* in the frame of the pad's middle */
@@ -30,8 +31,10 @@ double rf_pad_least(const rf_tilting_pad *pad, const double *e);
 /* The force f[2] at e[2] and w[3] and, unless NULL, jacobian[10], as an rf_film; zero where no film is. */
 int rf_pivoted_film(const rf_tilting_pad *pad, const double *e, const double *w, double *f, double *jacobian);
 
-/* The w_t of w[3] at which a pad without inertia has no moment, for w_n > 0, with force and jacobian there. */
-int rf_pad_follow(const rf_tilting_pad *pad, const double *e, double *w, double *f, double *jacobian);
+/* The w_t of w[3] at which a pad without inertia has no moment, for w_n > 0, with force and jacobian there. Where `near` is
+   not NULL and no farther than RF_PAD_NEAR, relative, one step of Newton's method from it serves: an error of the square
+   of that, and of the jacobian that it changes by. */
+int rf_pad_follow(const rf_tilting_pad *pad, const double *e, const double *near, double *w, double *f, double *jacobian);
 
 /* The w_t, of all that leave no film for w_n <= 0, that is nearest to `wanted`. */
 double rf_pad_idle(const rf_tilting_pad *pad, double w_n, double wanted);
