@@ -248,10 +248,14 @@ class Balance(NamedTuple, Generic[R]):
 
     def values(self, series: Array, frequency: float) -> Array:
         """Return the equations alone, in clearances; FilmContactError as in `residual`."""
-        spectrum = self.rotor.forces(*self._motion(series, frequency)) @ self.basis.back.T
+        spectrum = self.force_series(series, frequency)
         answered = apply(self.rotor.receptance(self.harmonics, frequency)[0], spectrum)
         missing = series - answered - self._external(frequency)
         return np.asarray((missing / self.units[:, None]).ravel())
+
+    def force_series(self, series: Array, frequency: float) -> Array:
+        """Return the series of the forces, (rows, 2 H + 1); FilmContactError as in `residual`."""
+        return self.rotor.forces(*self._motion(series, frequency)) @ self.basis.back.T
 
     def in_length(self, change: Array) -> Array:
         """Return a change of the series, in clearances and one after the other, as a series [m]."""

@@ -9,7 +9,6 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy import sparse
 
 from ..core.errors import EquilibriumError, InputError, require_count, require_positive
 from ..core.inputs import arguments
@@ -19,15 +18,16 @@ from ..core.readable import Drawable
 from ..core.results import Trajectory
 from ..core.signals import PLANAR
 from ..rotors import FlexibleRotor, MountedRotor, RigidRotor, mount
-from ..rotors.structure import MatrixRotor, Structure, freedom_rows, station_name
+from ..rotors.structure import MatrixRotor, station_name
 from . import harmonic_balance
 from .compiled_march import ModalArrays
 from .compiled_rotor import Complex, ModalRotor, journal_rows, modal_rotor, modes, take_apart
 from .equilibrium import equilibrium
-from .modal_reduction import FEW, MARGIN, BandedMotion, Condensed, models
+from .modal_reduction import FEW, Condensed, models
 from .port_orbits import PortRotor, carried_over, step_phases
 from .rotor_equilibrium import rotor_equilibrium
 from .threads import one_blas_thread
+from .whole_shaft import WholeShaft, feeds, slow_multipliers
 
 HARMONICS = 8
 """Harmonics at first."""
@@ -40,9 +40,6 @@ WHOLE = 3
 
 ABOVE = 4.0
 """Frequency to which shapes are kept / that of the level before; at first it is that of `HARMONICS`."""
-
-ROUND_OFF = 1e-6
-"""Part of the damping of a bearing, over an orbit, below which it does not count."""
 
 BALANCED = 1e-3
 """Where the search for an orbit ends, in tolerances."""
@@ -223,10 +220,12 @@ def orbit_rotor(mounted: MountedRotor, level: int = 0) -> harmonic_balance.Perio
     """
     bare, bearings = mounted.bare, mounted.all_bearings.values()
     aside = isinstance(bare, FlexibleRotor) and bool(bare.assembly.others)
-    if aside or any(freedoms_of(one) != PLANAR or (one.states and not takes_steps(one)) for one in bearings):
+    if aside or any(freedoms_of(one) != PLANAR for one in bearings):
         return PortRotor.of(mounted)
-    model = None
-    if isinstance(bare, FlexibleRotor) and (model := _model(bare, level)) is not None:
+    model = _model(bare, level) if isinstance(bare, FlexibleRotor) else None
+    if any(one.states and not takes_steps(one) for one in bearings):
+        return PortRotor.of(mounted, model)
+    if isinstance(bare, FlexibleRotor) and model is not None:
         mounted = mount(MatrixRotor(bare, model.structure), mounted.all_bearings)
     parts = take_apart(mounted)
     return CompiledRotor(modal_rotor(parts, parts.speed), mounted, model)
@@ -351,105 +350,42 @@ class CompiledRotor(harmonic_balance.ModalFilms):
 
     def state(self, series: Array, frequency: float, periods: int) -> Array:
         """Return the state of the rotor at phase 0 of an orbit."""
-        if self.model is None:
+        if self._shaft is None:
             return state_at_start(self.modal, series, frequency, periods)
-        return WholeFilms(self.modal, self.model.whole).state(series, frequency, periods)
+        return self._shaft.state(series, frequency, periods, self.forces)
+
+    @cached_property
+    def _shaft(self) -> WholeShaft | None:
+        """All of the shaft; None where it moves in all of its coordinates."""
+        if self.model is None:
+            return None
+        return WholeShaft(self.model, self.names, self.modal.spring, self.modal.damper, self.speed)
 
     def neglected(self, balance: harmonic_balance.Balance[Any], series: Array, frequency: float) -> float:
         """Return the imbalance of an orbit by the shapes that were left out, in clearances.
 
         It is infinite where a bearing may drive motions faster than those whose multipliers are known.
         """
-        if self.model is None:
+        if self._shaft is None:
             return 0.0
         if self._drives_fast_motions(series, frequency):
             return math.inf
-        whole = balance._replace(rotor=WholeFilms(self.modal, self.model.whole))
-        return float(np.abs(whole.values(series, frequency)).max())
+        force = balance.force_series(series, frequency)
+        missing = self._shaft.missing(series, force, frequency, balance.periods)
+        return float(np.abs(missing / self.units[:, None]).max())
 
     def multipliers(self, series: Array, frequency: float) -> Complex:
         """Return the Floquet multipliers of an orbit, the largest first."""
-        return multipliers(self.modal, series, frequency, self._known_to)
-
-    @property
-    def _known_to(self) -> float:
-        """Frequency of modes up to which multipliers are known [rad/s]."""
-        space = None if self.model is None else self.model.space
-        return math.inf if space is None else space.cut / MARGIN**2
+        known_to = math.inf if self._shaft is None else self._shaft.known_to
+        return multipliers(self.modal, series, frequency, known_to)
 
     def _drives_fast_motions(self, series: Array, frequency: float) -> bool:
-        """Return whether a bearing, on its mean slopes over an orbit, may feed motions of high frequency w.
-
-        From u exp(i w t) it takes the power w^2 u* H u / 2, with H = (C + C^T) / 2 - i (K - K^T) / (2 w).
-        """
-        at = harmonic_balance.basis(series.shape[1] // 2, 2 * series.shape[1] + 6)
-        _, stiffness, damping = self.tangents(series @ at.values.T, frequency * (series @ at.slopes.T))
-        K, C = (-part.mean(axis=-1).reshape(-1, 2, 2) for part in (stiffness, damping))
-        C = C + self.modal.damper.reshape(-1, 2, 1) * np.eye(2)
-        cross = (K - K.swapaxes(1, 2)) * (-0.5j / self._known_to)
-        taken = np.linalg.eigvalsh(0.5 * (C + C.swapaxes(1, 2)) + cross)
-        return bool(np.any(taken[:, 0] < -ROUND_OFF * np.abs(taken).max(axis=1)))
-
-
-@dataclass(frozen=True, eq=False)
-class WholeFilms(harmonic_balance.ModalFilms):
-    """All coordinates of a rotor on the springs of modes in few shapes, as the equations of an orbit see it.
-
-    Attributes
-    ----------
-    whole : Structure
-        Sparse.
-    """
-
-    whole: Structure
-
-    @cached_property
-    def rows(self) -> Array:
-        """Displacement of the journals, shape (2 n_bearings, N)."""
-        return np.concatenate([freedom_rows(self.whole, name) for name in self.modal.parts.names])
-
-    @cached_property
-    def motion(self) -> BandedMotion:
-        """Its small motion."""
-        s, rows, speed = self.whole, sparse.csr_array(self.rows), self.speed
-        spring, damper = (
-            rows.T @ sparse.diags_array(part) @ rows for part in (self.modal.spring, self.modal.damper)
-        )
-        damping = sparse.csr_array(s.damping) + speed * sparse.csr_array(s.gyroscopic) + damper
-        stiffness = sparse.csr_array(s.stiffness) + speed * sparse.csr_array(s.circulation) + spring
-        return BandedMotion(sparse.csr_array(s.mass), damping, stiffness)
-
-    def receptance(self, harmonics: int, frequency: float) -> harmonic_balance.Receptance:
-        """Return what the journals answer on the springs of the modes."""
-        rows = self.rows
-        answers = [rows @ self.motion.solve(1j * k * frequency, rows.T) for k in range(harmonics + 1)]
-        return np.array(answers), None
-
-    def external(self, harmonics: int, periods: int, frequency: float) -> Array:
-        """Return the series of the answer to weight, and to the unbalance if `periods` is not 0."""
-        s, rows = self.whole, self.rows
-        rest = (rows @ self.motion.solve(0.0, s.weight[:, None])).real[:, 0]
-        if not periods:
-            return harmonic_balance.constant(rest, harmonics)
-        moved = rows @ self.motion.solve(1j * periods * frequency, self._turning[:, None])
-        return harmonic_balance.with_wave(rest, moved[:, 0], harmonics, periods)
-
-    @property
-    def _turning(self) -> Complex:
-        """The force of the unbalance, shape (N,): it is the real part of this exp(i |speed| t)."""
-        pair = np.array([1.0, -1.0j * np.sign(self.speed)])
-        return np.asarray(self.speed**2 * self.whole.unbalance @ pair)
-
-    def state(self, series: Array, frequency: float, periods: int) -> Array:
-        """Return the state (2 N,) at phase 0 of an orbit."""
-
-        def answer(k: int, force: Complex) -> Array:
-            beside = 0.0 if k and k != periods else self._turning if k else self.whole.weight
-            pole = 1j * k * frequency
-            moved = self.motion.solve(pole, (self.rows.T @ force + beside)[:, None])[:, 0]
-            return np.concatenate([moved, pole * moved]).real
-
-        return np.asarray(harmonic_balance.at_start(series, frequency, self.forces, answer))
+        """Return whether a bearing, on its mean slopes over an orbit, may feed motions of high frequency."""
+        assert self._shaft is not None
+        at, fast = harmonic_balance.basis(series.shape[1] // 2, 2 * series.shape[1] + 6), self._shaft.known_to
+        _, by_row, by_rate = self.tangents(series @ at.values.T, frequency * (series @ at.slopes.T))
+        K, C = (part.mean(axis=-1).reshape(-1, 2, 2) for part in (by_row, by_rate))
+        return feeds(K + 1j * fast * (C - self.modal.damper.reshape(-1, 2, 1) * np.eye(2)), fast)
 
 
 # Floquet multipliers of a periodic orbit: the monodromy matrix, integrated with the slopes of the films.
@@ -503,12 +439,7 @@ def multipliers(modal: ModalRotor, series: Array, frequency: float, known_to: fl
     """Return the Floquet multipliers, the largest first, of motion in modes up to a frequency [rad/s]."""
     scale = np.repeat([1.0, frequency], len(modal.shapes) // 2)
     matrix = monodromy(modal, series, frequency)
-    values, vectors = np.linalg.eig(matrix * scale / scale[:, None])
-    motion, sizes = scale[:, None] * vectors, np.linalg.norm(modal.shapes / scale[:, None], axis=0)
-    shares = np.abs(modal.inverse @ motion) + np.abs(modal.inverse.conj() @ motion)
-    leading = (sizes[:, None] * shares).argmax(axis=0)
-    values = values[np.abs(modal.values)[leading] <= known_to]
-    return values[np.argsort(-np.abs(values))]
+    return slow_multipliers(matrix, scale, modal.values, modal.shapes, modal.inverse, known_to)
 
 
 def state_at_start(modal: ModalRotor, series: Array, frequency: float, periods: int) -> Array:

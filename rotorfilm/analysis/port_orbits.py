@@ -29,12 +29,14 @@ from ..core.port import clearance_of, freedoms_of, inertial, minimum_film, stati
 from ..core.signals import PLANAR
 from ..rotors import FlexibleRotor, MountedRotor, RigidRotor, mount
 from ..rotors.mounted import Mount
-from ..rotors.structure import NOMINAL_LENGTH, station_name
+from ..rotors.structure import NOMINAL_LENGTH, MatrixRotor, station_name
 from .compiled_march import STAGES, ModalArrays, StepTable, radau_scheme
 from .compiled_rotor import LARGEST_CONDITION, Complex, modes
 from .equilibrium import equilibrium
-from .harmonic_balance import Receptance, at_start, series_rows, with_wave
+from .harmonic_balance import Receptance, at_start, basis, series_rows, with_wave
+from .modal_reduction import Condensed
 from .rotor_equilibrium import rotor_equilibrium
+from .whole_shaft import WholeShaft, feeds, slow_multipliers
 
 STEPS_PER_HARMONIC, LEAST_STEPS = 2, 64
 """Steps of the monodromy matrix."""
@@ -89,15 +91,18 @@ class PortRotor:
     speed : float [rad/s]
     unbalanced : float [1]
         Part of the unbalance.
+    model : Condensed, optional
+        The shapes that it moves in, where these are not all; then its bearings react to x and y only.
     """
 
     mounted: MountedRotor
     speed: float
     unbalanced: float = 1.0
+    model: Condensed | None = None
 
     @classmethod
-    def of(cls, mounted: MountedRotor) -> PortRotor:
-        """Return a mounted rotor.
+    def of(cls, mounted: MountedRotor, model: Condensed | None = None) -> PortRotor:
+        """Return a mounted rotor, in the shapes of a model if one is given.
 
         Raises
         ------
@@ -109,7 +114,8 @@ class PortRotor:
         bare, bearings = mounted.bare, mounted.all_bearings
         if not isinstance(bare, RigidRotor | FlexibleRotor):
             raise InputError(f"rotor must be a RigidRotor or a FlexibleRotor on still ground, got {bare!r}")
-        if bare.structure.hysteresis is not None:
+        assembly = bare.assembly if isinstance(bare, FlexibleRotor) else bare.structure
+        if assembly.hysteresis is not None:
             raise InputError("loss_factor must be 0 in large motion, where hysteresis is not a force")
         if len(set(bare.profile.speeds)) != 1:
             raise InputError(f"speed must be constant, got a profile over {bare.profile.times!r} s")
@@ -118,7 +124,8 @@ class PortRotor:
                 raise InputError(
                     f"bearings[{name!r}] must have no added mass on a periodic orbit, got {bearing!r}"
                 )
-        found = cls(mount(bare, bearings), float(bare.profile.speeds[0]))
+        moving = MatrixRotor(bare, model.structure) if isinstance(bare, FlexibleRotor) and model else bare
+        found = cls(mount(moving, bearings), float(bare.profile.speeds[0]), model=model)
         found.require_held()
         return found
 
@@ -272,7 +279,7 @@ class PortRotor:
 
     def loaded(self, part: float) -> PortRotor:
         """Return the same under a part of the unbalance."""
-        found = PortRotor(self.mounted, self.speed, part)
+        found = PortRotor(self.mounted, self.speed, part, self.model)
         found.__dict__.update(
             {key: self.__dict__[key] for key in ("small", "_known") if key in self.__dict__}
         )
@@ -353,7 +360,13 @@ class PortRotor:
         return {name: row for name, row in zip(self.row_names, series, strict=True) if name not in planar}
 
     def state(self, series: Array, frequency: float, periods: int) -> Array:
-        """Return the state (Z,) at phase 0 of an orbit."""
+        """Return the state of rotor and bearings at phase 0 of an orbit."""
+        if self._shaft is not None:
+            shaft = self._shaft.state(series, frequency, periods, self._on_shaft)
+            now = series[:, : series.shape[1] // 2 + 1].sum(axis=1)
+            return np.concatenate(
+                [shaft, *(now[b][m.size :] for m, b in zip(self.mounts, self.blocks, strict=True))]
+            )
         small = self.small
 
         def answer(k: int, force: Complex) -> Array:
@@ -362,17 +375,65 @@ class PortRotor:
 
         return np.asarray(at_start(series, frequency, self.forces, answer))
 
+    @cached_property
+    def _shaft(self) -> WholeShaft | None:
+        """All of the shaft, on springs about as stiff as its films; None where all of it moves."""
+        if self.model is None:
+            return None
+        spring = np.repeat([np.abs(self.small.by_row[b][:2, :2]).max() for b in self.blocks], 2)
+        return WholeShaft(self.model, self.names, spring, spring / (abs(self.speed) or 1.0), self.speed)
+
+    def _on_shaft(self, position: Array, velocity: Array) -> Array:
+        """Return the forces on the journals with those that the springs of the shaft give back."""
+        assert self._shaft is not None
+        small, own = self.small, [k for b in self.blocks for k in (b.start, b.start + 1)]
+        springs, dampers = (self._square(part[..., None])[0] for part in (small.by_row, small.by_rate))
+        force = self.forces(position, velocity) + springs @ position + dampers @ velocity
+        given = self._shaft.spring[:, None] * position[own] + self._shaft.damper[:, None] * velocity[own]
+        return np.asarray(force[own] + given)
+
     def neglected(self, balance: Any, series: Array, frequency: float) -> float:
-        """Return 0: it moves in all of its coordinates."""
-        return 0.0
+        """Return the imbalance of an orbit by the shapes that were left out, in clearances.
+
+        It is infinite where a bearing may drive motions faster than those whose multipliers are known.
+        """
+        if self._shaft is None:
+            return 0.0
+        if self._drives_fast_motions(series, frequency):
+            return math.inf
+        at = balance.basis
+        force = self._on_shaft(series @ at.values.T, frequency * (series @ at.slopes.T)) @ at.back.T
+        journals = self.journal_series(series).reshape(-1, series.shape[1])
+        missing = self._shaft.missing(journals, force, frequency, balance.periods, self.unbalanced)
+        return float(np.abs(missing / np.repeat(self.lengths, 2)[:, None]).max())
+
+    def _drives_fast_motions(self, series: Array, frequency: float) -> bool:
+        """Return whether a bearing, on its mean slopes over an orbit, may feed motions of high frequency."""
+        assert self._shaft is not None
+        at, s = basis(series.shape[1] // 2, 2 * series.shape[1] + 6), 1j * self._shaft.known_to
+        slopes = self._slopes(series @ at.values.T, frequency * (series @ at.slopes.T))
+        by_row, by_rate = (self._square(part).mean(axis=0) for part in slopes)
+        found = []
+        for b in self.blocks:
+            whole = (by_row + s * by_rate)[b, b]
+            inner = np.linalg.solve(s * np.eye(len(whole) - 2) - by_row[b, b][2:, 2:], whole[2:, :2])
+            found.append(whole[:2, :2] + by_row[b, b][:2, 2:] @ inner)
+        return feeds(np.array(found), s.imag)
 
     def multipliers(self, series: Array, frequency: float) -> Complex:
         """Return the Floquet multipliers, the largest first."""
-        values = np.linalg.eigvals(self.monodromy(series, frequency))
-        return values[np.argsort(-np.abs(values))]
+        known_to = math.inf if self._shaft is None else self._shaft.known_to
+        values, shapes, inverse, matrix = self._modes_and_monodromy(series, frequency, None)
+        return slow_multipliers(matrix, self._scale, values, shapes, inverse, known_to)
 
     def monodromy(self, series: Array, frequency: float, steps: int | None = None) -> Array:
         """Return how a small change of the state is mapped over one period, shape (Z, Z)."""
+        return self._modes_and_monodromy(series, frequency, steps)[3]
+
+    def _modes_and_monodromy(
+        self, series: Array, frequency: float, steps: int | None
+    ) -> tuple[Complex, Complex, Complex, Array]:
+        """Return the modes on the mean slopes: exponents, shapes and their inverse; and that matrix."""
         steps, phase = step_phases(series.shape[1] // 2, steps)
         values, slopes = series_rows(series.shape[1] // 2, phase)
         _, *both = self.tangents(series @ values.T, frequency * (series @ slopes.T))
@@ -387,7 +448,7 @@ class PortRotor:
             )
         push, sense = (np.ascontiguousarray(one) for one in (inverse @ small.push + 0j, felt @ shapes))
         arrays = ModalArrays(np.ascontiguousarray(values), push, sense)
-        return carried_over(arrays, shapes, inverse, local - mean, step)
+        return values, shapes, inverse, carried_over(arrays, shapes, inverse, local - mean, step)
 
     def _square(self, slopes: Array) -> Array:
         """Return slopes (rows, widest, samples) by all rows, shape (samples, rows, rows)."""

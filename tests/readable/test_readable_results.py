@@ -46,7 +46,7 @@ NO_RESULTS = {
             "MarchMotion",
             "Residual",
             "ModalFilms",
-            "WholeFilms",
+            "WholeShaft",
             "CompiledRotor",
             "PortRotor",
             "DrivenRotor",
