@@ -25,6 +25,7 @@ from ..core.results import Trajectory
 from ..core.signals import Signal
 from ..native import Status
 from ..native.film_call import MASSLESS, FilmCall
+from ..native.library import loops
 from ..native.structs import constant
 from ..rotors import CrackedRotor, LinearMotor
 from ..rotors.structure import station_name
@@ -186,6 +187,33 @@ def torque_call(torque: Any) -> FilmCall:
         return np.array([torque.torque(*at)], dtype=float), np.array([torque.slope(*at)], dtype=float)
 
     return _call_of(driven, [])
+
+
+def film_samples(bearing: Any, rows: Array, speed: float) -> tuple[Array, Array] | None:
+    """Return what a film in C with states answers at many motions; None without one, or where one fails.
+
+    Parameters
+    ----------
+    bearing : Reaction
+    rows : ndarray, shape (4 + n_states, samples)
+        x, y, vx, vy and its states.
+    speed : float [rad/s]
+
+    Returns
+    -------
+    answers : ndarray, shape (2 + n_states, samples)
+        Forces and rates of the states.
+    slopes : ndarray, shape (2 + n_states, 5 + n_states, samples)
+        Their derivatives by x, y, vx, vy, speed and the states.
+    """
+    if not has_states_in_c(bearing):
+        return None
+    call, given = bearing.call_with_states(), np.ascontiguousarray(rows)
+    n, samples = call.states, rows.shape[1]
+    answers, slopes = np.empty((2 + n, samples)), np.empty((2 + n, 5 + n, samples))
+    places = given.ctypes.data, speed, answers.ctypes.data, slopes.ctypes.data
+    status = loops()["rf_film_samples"](call.address, call.data, n, samples, *places)
+    return (answers, slopes) if status == Status.OK else None
 
 
 def has_states_in_c(bearing: Any) -> bool:

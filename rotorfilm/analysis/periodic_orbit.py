@@ -357,7 +357,7 @@ class CompiledRotor(harmonic_balance.ModalFilms):
     @cached_property
     def _shaft(self) -> WholeShaft | None:
         """All of the shaft; None where it moves in all of its coordinates."""
-        if self.model is None:
+        if self.model is None or self.model.space is None:
             return None
         return WholeShaft(self.model, self.names, self.modal.spring, self.modal.damper, self.speed)
 

@@ -33,6 +33,7 @@ from ..rotors.structure import NOMINAL_LENGTH, MatrixRotor, station_name
 from .compiled_march import STAGES, ModalArrays, StepTable, radau_scheme
 from .compiled_rotor import LARGEST_CONDITION, Complex, modes
 from .equilibrium import equilibrium
+from .force_calls import film_samples
 from .harmonic_balance import Receptance, at_start, basis, series_rows, with_wave
 from .modal_reduction import Condensed
 from .rotor_equilibrium import rotor_equilibrium
@@ -307,6 +308,9 @@ class PortRotor:
         n = m.size
         if not m.reaction.states:
             return static_force(m.reaction, position, velocity, np.full(position.shape[1], self.speed))
+        in_c = film_samples(m.reaction, np.vstack([position[:n], velocity[:n], position[n:]]), self.speed)
+        if in_c is not None:
+            return in_c[0]
         found, model = [], m.reaction
         for q, v in zip(position.T, velocity.T, strict=True):
             u = np.array([*q[:n], *v[:n], self.speed])
@@ -329,6 +333,11 @@ class PortRotor:
                 self._require_inside(m, q)
                 slopes = static_slopes(m.reaction, q, v, np.full(samples, self.speed))
                 by_row[block, :n], by_rate[block, :n] = slopes[:, :n], slopes[:, n : 2 * n]
+                continue
+            in_c = film_samples(m.reaction, np.vstack([q[:n], v[:n], q[n:]]), self.speed)
+            if in_c is not None:
+                by_row[block, : len(q)] = np.delete(in_c[1], [2, 3, 4], axis=1)
+                by_rate[block, :n] = in_c[1][:, 2:4]
                 continue
             for k in range(samples):
                 u = np.array([*q[:n, k], *v[:n, k], self.speed])
@@ -378,7 +387,7 @@ class PortRotor:
     @cached_property
     def _shaft(self) -> WholeShaft | None:
         """All of the shaft, on springs about as stiff as its films; None where all of it moves."""
-        if self.model is None:
+        if self.model is None or self.model.space is None:
             return None
         spring = np.repeat([np.abs(self.small.by_row[b][:2, :2]).max() for b in self.blocks], 2)
         return WholeShaft(self.model, self.names, spring, spring / (abs(self.speed) or 1.0), self.speed)

@@ -172,6 +172,28 @@ int rf_set_forces(const rf_journals *journals, const double *motion, double spee
     return worst;
 }
 
+int rf_film_samples(rf_response film, const void *of, int32_t n, int64_t samples, const double *rows, double speed,
+                    double *answer, double *slope)
+{
+    const int32_t answers = 2 + n, slopes = answers * (5 + n);
+    double state[5 + 2 * RF_FILM_STATES], one[2 + RF_FILM_STATES], by[(2 + RF_FILM_STATES) * (5 + RF_FILM_STATES)];
+    int worst = RF_OK;
+    for (int64_t k = 0; k < samples && worst < RF_AT_WALL; ++k) {
+        for (int32_t q = 0; q < 4 + n; ++q)
+            state[q < 4 ? q : q + 1] = rows[q * samples + k];
+        state[4] = speed;
+        for (int32_t q = 0; q < n; ++q)
+            state[5 + n + q] = NAN;
+        const int status = film(of, state, one, by);
+        worst = status > worst ? status : worst;
+        for (int32_t q = 0; q < answers; ++q)
+            answer[q * samples + k] = one[q];
+        for (int32_t q = 0; q < slopes; ++q)
+            slope[q * samples + k] = by[q];
+    }
+    return worst;
+}
+
 int rf_journal_forces(const rf_journals *journals, int64_t samples, const double *motion, double speed,
                       double *force, double *slope)
 {

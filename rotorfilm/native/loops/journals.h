@@ -84,4 +84,9 @@ int rf_set_forces(const rf_journals *journals, const double *motion, double spee
 RF_EXPORT_LOOP int rf_journal_forces(const rf_journals *journals, int64_t samples, const double *motion,
                                      double speed, double *force, double *slope);
 
+/* Answers (2 + n rows) and slopes ((2 + n) (5 + n) rows) of a film with n states at motions and states (4 + n rows), rows of
+   `samples`, at one speed; the most severe status. */
+RF_EXPORT_LOOP int rf_film_samples(rf_response film, const void *of, int32_t n, int64_t samples, const double *rows,
+                                   double speed, double *answer, double *slope);
+
 #endif

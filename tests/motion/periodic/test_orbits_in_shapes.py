@@ -6,30 +6,66 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorfilm import JournalBearing, LinearBearing, Unbalance, mount, periodic_orbit
+from rotorfilm import (
+    Cooling,
+    JournalBearing,
+    LinearBearing,
+    Oil,
+    ShortFilm,
+    TiltingPadBearing,
+    Unbalance,
+    even_pivots,
+    mount,
+    periodic_orbit,
+)
+from rotorfilm.analysis.force_calls import film_samples
 from rotorfilm.analysis.modal_reduction import counted, models
 from rotorfilm.rotors import Station
 
 from ...linear.test_big_rotors import long_rotor
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+PADS = TiltingPadBearing(
+    radius=0.05,
+    length=0.03,
+    viscosity=0.1,
+    pivots=even_pivots(4, between_pads=True),
+    extent=np.radians(72.0),
+    preload=0.3,
+    assembled_clearance=1e-4,
+)
+SPRUNG = replace(PADS, pivot_stiffness=2e8, pad_inertia=2e-4, pad_mass=0.3)
+WARM = JournalBearing(
+    radius=0.05,
+    length=0.03,
+    clearance=1e-4,
+    oil=Oil.iso_vg(100),
+    cooling=Cooling(supply_temperature=313.15, bush_heat_capacity=2.0),
+    film=ShortFilm(),
+)
 SEARCH = "rotorfilm.analysis.periodic_orbit"
 
 
-def mounted(count, speed=150.0, unbalance=3e-3):
+def mounted(count, speed=150.0, unbalance=3e-3, bearing=BEARING):
     rotor = long_rotor(count, speed=speed, unbalances=(Unbalance(node=count // 3, unbalance=unbalance),))
-    return mount(rotor, {"left": BEARING, "right": BEARING})
+    return mount(rotor, {"left": bearing, "right": bearing})
 
 
-def test_an_orbit_in_few_shapes_is_that_of_the_whole_shaft(monkeypatch):
-    few = periodic_orbit(mounted(6))
+@pytest.mark.parametrize(
+    "bearing", [BEARING, PADS, SPRUNG, WARM.in_time()], ids=["plain", "pads", "heavy pads on springs", "warm"]
+)
+def test_an_orbit_in_few_shapes_is_that_of_the_whole_shaft(monkeypatch, bearing):
+    few = periodic_orbit(mounted(6, bearing=bearing))
     monkeypatch.setattr(sys.modules[SEARCH], "_model", lambda rotor, level: None)
-    whole = periodic_orbit(mounted(6))
+    whole = periodic_orbit(mounted(6, bearing=bearing))
     assert len(few.multipliers) < len(whole.multipliers) == len(few.state)
-    assert few.amplitude > 0.03
+    assert few.amplitude > 0.01
     assert few.residual <= 1e-7
     assert few.series / 1e-4 == pytest.approx(whole.series / 1e-4, abs=1e-8)
-    assert few.state == pytest.approx(whole.state, abs=1e-6 * np.abs(whole.state).max())
+    for name, series in whole.further.items():
+        assert few.further[name] == pytest.approx(series, abs=1e-8 * np.abs(series).max())
+    count = len(mounted(6).states)
+    assert few.state == pytest.approx(whole.state, abs=1e-6 * np.abs(whole.state[:count]).max())
     assert len(few.multipliers) >= 8
     for one in few.multipliers:  # those of fast motion of the whole shaft are larger
         assert np.abs(whole.multipliers - one).min() < 1e-6
@@ -60,6 +96,38 @@ def test_a_bearing_that_drives_fast_motions_makes_the_orbit_of_the_whole_shaft_u
     cross = LinearBearing(stiffness=((0.0, 5e4), (-5e4, 0.0)), damping=100.0)
     calm = periodic_orbit(mount(rotor, bearings | {"seal": cross}))
     assert len(calm.multipliers) < len(orbit.multipliers) == len(orbit.state)
+
+
+def test_a_bearing_that_drives_fast_motions_is_seen_beside_pads():
+    rotor = mounted(6).bare
+    rotor = replace(rotor, stations=(*rotor.stations, Station(node=3, name="seal")))
+    bearings = {"left": PADS, "right": PADS, "seal": LinearBearing(stiffness=0.0, damping=-100.0)}
+    orbit = periodic_orbit(mount(rotor, bearings))
+    assert len(orbit.multipliers) == len(orbit.state)
+    calm = periodic_orbit(mount(rotor, bearings | {"seal": LinearBearing(stiffness=0.0, damping=100.0)}))
+    assert len(calm.multipliers) < len(calm.state)
+
+
+@pytest.mark.parametrize("bearing", [PADS, SPRUNG, WARM.in_time()], ids=["pads", "springs", "warm"])
+def test_films_at_many_motions_are_those_at_one(bearing):
+    random, n = np.random.default_rng(3), len(bearing.states)
+    places, rates = random.uniform(-3e-5, 3e-5, (2, 7)), random.uniform(-5e-3, 5e-3, (2, 7))
+    own = bearing.initial_state[:, None] + np.array([[s.nominal] for s in bearing.states]) * random.uniform(
+        0.0, 0.02, (n, 7)
+    )
+    answers, slopes = film_samples(bearing, np.vstack([places, rates, own]), 300.0)
+    for k in range(7):
+        u, x = np.array([*places[:, k], *rates[:, k], 300.0]), own[:, k]
+        expected = np.append(bearing.output(0.0, x, u)[:2], bearing.derivative(0.0, x, u))
+        assert answers[:, k] == pytest.approx(expected, rel=1e-11, abs=1e-11 * np.abs(expected).max())
+        A, B, C, D = bearing.linearization(0.0, x, u)
+        for found, wanted in (
+            (slopes[:2, :5], D[:2]),
+            (slopes[:2, 5:], C[:2]),
+            (slopes[2:, :5], B),
+            (slopes[2:, 5:], A),
+        ):
+            np.testing.assert_allclose(found[..., k], wanted, rtol=1e-9, atol=1e-9 * np.abs(wanted).max())
 
 
 def test_the_work_of_an_orbit_does_not_grow_with_the_coordinates():
