@@ -31,7 +31,7 @@ from ..core.time_steps import bdf2, cubic
 from ..native.film_kernels import Status
 from ..native.library import loops
 from ..native.structs import structure
-from ..rotors import MountedRotor
+from ..rotors import FlexibleRotor, MountedRotor, RigidRotor
 from ..rotors.structure import prefixed, station_names
 from .compiled_march import highest_speed
 from .compiled_rotor import CONTACT_GAP, is_linear
@@ -564,7 +564,12 @@ class SteppedLoop:
     def _drive(self, frame: Frame, times: Array, lengths: Array, x: Array) -> _Drive:
         """Return what steps have each for themselves; of a rotor that is not linear about a state."""
         about = 0.0 * x if self._linear else x
-        pushed = np.array([self.rotor.derivative(t, about, self._none) for t in times]) - frame.A @ about
+        if self._linear and isinstance(self.rotor, RigidRotor | FlexibleRotor):  # without products with zeros
+            model = self.rotor.operators
+            pushed = model.weight + np.array([self.rotor.rotating(t) for t in times]) @ model.unbalance.T
+        else:
+            rates = np.array([self.rotor.derivative(t, about, self._none) for t in times])
+            pushed = rates - frame.A @ about
         offset = np.array([self.rotor.output(t, about, self._none)[self._motion] for t in times])
         return _Drive(times, lengths, pushed, offset - frame.sense @ about, x)
 
