@@ -6,7 +6,7 @@ The rotor of Friswell et al. (2010), section 5.9, in 24 elements without inner s
 springs of 1 MN/m and 50 N s/m, or on the films of example 5.9.6; made anew for each analysis. `apart`: the
 largest part by which the answers of both differ. ROSS has six degrees of freedom a node; its critical speeds
 are asked for to 1e-8, since its own tolerance of 5e-3 leaves 1e-5. A dash: no such analysis. Transmissibility
-is taken from its response of all coordinates; runs in time are in `rotor_transient.py`.
+is taken from its response of all coordinates; runs in time on films are in `rotor_transient.py`.
 """
 
 from __future__ import annotations
@@ -31,6 +31,7 @@ from rotorfilm.analysis import (
     rotor_modes,
     rotor_threshold,
     rotor_transmissibility,
+    simulate,
     stability_changes,
     unbalance_response,
 )
@@ -86,6 +87,7 @@ def rows(count: int) -> list[Row]:
         rest_row(rests),
         *eigenvalue_rows(),
         *response_rows(count // 3, rests),
+        time_row(count // 3),
         Row("threshold on films", lambda r: rotor_threshold(r, FILMS, THRESHOLD), lambda found: found),
         Row("stability changes", lambda r: stability_changes(r, FILMS, THRESHOLD), lambda found: found),
     ]
@@ -158,6 +160,25 @@ def response_rows(loaded: int, rests: dict[str, Any]) -> list[Row]:
             lambda found: found,
         ),
     ]
+
+
+def time_row(loaded: int) -> Row:
+    """Return 1 s of motion in time from the center of the springs under an unbalance, by steps of 0.1 ms."""
+    times = 1e-4 * np.arange(10001)
+
+    def pushed(ross: Any) -> Any:
+        force = np.zeros((len(times), ross.ndof))
+        force[:, 6 * loaded] = 1e-3 * SPEED**2 * np.cos(SPEED * times)
+        force[:, 6 * loaded + 1] = 1e-3 * SPEED**2 * np.sin(SPEED * times)
+        return ross.run_time_response(SPEED, force, times)
+
+    return Row(
+        "1 s by 0.1 ms, linear",
+        lambda r: simulate(replace(r, speed=SPEED, gravity=(0.0, 0.0)), SPRINGS, duration=1.0, times=times),
+        lambda run: np.array([run["left_x"].std(), run["right_y"].std()]),
+        pushed,
+        lambda found: found.yout[:, [0, -5]].std(axis=0),
+    )
 
 
 def apart(own: Any, other: Any) -> float:

@@ -30,14 +30,14 @@ from ..core.errors import (
 from ..core.inputs import arguments
 from ..core.limits import STEPS as MOST_STEPS, TURNS, require_at_most
 from ..core.model import Array, Dynamic, breakpoints
-from ..core.port import freedoms_of, is_constant, require_turned, static_slopes
+from ..core.port import freedoms_of, inertial, is_constant, require_turned, static_slopes
 from ..core.results import Trajectory
 from ..core.signals import indices, names, units
 from ..native.film_call import FilmCall
 from ..native.library import loops
 from ..native.structs import constant, structure
 from ..rotors import MotorDrivenRotor, MountedRotor, SpeedProfile
-from ..rotors.structure import prefixed
+from ..rotors.structure import freedom_rows, output_rows, prefixed
 from . import compiled_rotor
 from .bearing_forces import bearing_forces
 from .compiled_rotor import modes, starts
@@ -53,6 +53,9 @@ from .threads import one_blas_thread
 
 LONGEST_TURN = 1.0
 """Longest step in turns of the shaft."""
+
+FEW_TIMES, EVEN = 400, 4e-16
+"""Times whose exponentials are all made, and by how much times at equal distances may be off, relative."""
 
 CHECKED = 401
 """Times at which the neglected shapes of a run are looked at, at least."""
@@ -172,7 +175,9 @@ def _verified(
         parts, excess = compiled_rotor.take_apart(mounted, over_time=True), 0.0
         trials = [(dense[dense <= tried], tried), (dense, duration)] if neglected else [(grid, duration)]
         for times, until in trials:
-            run, states, turn, failure = run_of(mounted, state, parts, times, duration=until)
+            run, states, turn, failure = run_of(
+                mounted, state, parts, times, duration=until, whole=neglected is not None
+            )
             work.update(run.work)
             if neglected is not None:
                 excess = neglected.largest(run, states, turn) / condensation
@@ -206,12 +211,13 @@ def _run(
     rtol: float,
     max_step: float,
     begun: tuple[float, float],
+    whole: bool,
 ) -> tuple[Trajectory, Array, Array, Exception | None]:
     """Return a run, the states at its times, the turning of the shaft there, and what ended it early.
 
     What began is the angle and the speed of a rotor on a motor, whose states have neither.
     """
-    if (exact := linear_states(parts, state, grid)) is not None:
+    if (exact := linear_states(parts, state, grid, whole=whole)) is not None:
         turn = parts.profile.turn(grid)
         return _trajectory(mounted, grid, exact, parts, turn, dict.fromkeys(_COUNTERS, 0)), exact, turn, None
     rate = parts.nominal_speed or rate_of(compiled_rotor.modal_rotor(parts, 0.0))
@@ -264,8 +270,12 @@ def _trajectory(
 # A rotor on springs and dampers at constant speed: its motion is known at any time without a step.
 
 
-def linear_states(parts: compiled_rotor.Parts, state: Array, grid: Array) -> Array | None:
+def linear_states(
+    parts: compiled_rotor.Parts, state: Array, grid: Array, *, whole: bool = True
+) -> Array | None:
     """Return the states at the times of a grid, shape (n, 2 N), of a rotor whose equations are linear.
+
+    Those that no output shows are 0 unless the `whole` of them is asked for.
 
     With A V = V Lambda, x(t) = x0 + Re(p exp(i w t)) + Re(V exp(Lambda t) c), x0 at rest, p the response to
     the unbalance. None where speed or bearings change, a journal may touch, or the modes do not say the
@@ -293,11 +303,39 @@ def linear_states(parts: compiled_rotor.Parts, state: Array, grid: Array) -> Arr
     except np.linalg.LinAlgError:
         return None
     begun = inverse @ (state - rest - driven.real)
+    asked = np.arange(len(rest)) if whole else _shown_states(parts)
+    found = np.zeros((len(grid), len(rest)))
     with np.errstate(over="ignore", invalid="ignore"):
-        waves = np.exp(np.outer(grid, np.append(values, 1j * turn)))
-        columns = np.column_stack([shapes * begun, driven])
-        found = rest + waves.real @ columns.real.T - waves.imag @ columns.imag.T
-    return np.asarray(found) if np.isfinite(found).all() else None
+        waves = exponentials(np.append(values, 1j * turn), grid)
+        columns = np.column_stack([shapes * begun, driven])[asked]
+        motion = rest[asked] + waves.real @ columns.real.T - waves.imag @ columns.imag.T
+    found[:, asked] = motion
+    return found if np.isfinite(motion).all() else None
+
+
+def _shown_states(parts: compiled_rotor.Parts) -> np.ndarray:
+    """Return the places of those states of which the outputs of rotor and bearings are made."""
+    structure, n = parts.structure, len(parts.structure.weight)
+    if len(parts.scale(1.0)) > 2 * n or any(inertial(one) is not None for one in parts.bearings):
+        return np.arange(len(parts.scale(1.0)))
+    felt = [
+        freedom_rows(structure, name, freedoms_of(one))
+        for name, one in zip(parts.names, parts.bearings, strict=False)
+    ]
+    used = np.any(np.vstack([*np.hsplit(output_rows(structure), 2), *felt]), axis=0)
+    return np.flatnonzero(np.tile(used, 2))
+
+
+def exponentials(values: compiled_rotor.Complex, times: Array) -> compiled_rotor.Complex:
+    """Return exp(value t) at times, shape (n_times, n_values); at equal distances by products of few of them."""
+    count, block = len(times), max(1, math.isqrt(len(times)))
+    step = (times[-1] - times[0]) / max(1, count - 1)
+    even = times[0] + step * np.arange(count)
+    if count < FEW_TIMES or np.abs(times - even).max() > EVEN * abs(times[-1]):
+        return np.exp(np.outer(times, values))
+    ahead, within = np.arange(0, count, block), np.arange(block)
+    coarse, fine = np.exp(np.outer(times[0] + step * ahead, values)), np.exp(np.outer(step * within, values))
+    return (coarse[:, None] * fine).reshape(-1, len(values))[:count]
 
 
 # Steps of a rotor in modes under forces that are polynomials of time (`native/loops/collocation.h`).
