@@ -60,7 +60,7 @@ FEW_TIMES, EVEN = 400, 4e-16
 CHECKED = 401
 """Times at which the neglected shapes of a run are looked at, at least."""
 
-TRIED = 0.125
+TRIAL_SHARE = 0.125
 """Share of a run in which shapes are tried before the whole of it runs."""
 
 
@@ -98,9 +98,9 @@ def simulate_rotor(
     ----------
     mounted : MountedRotor
         Mounted rotor from `mount`, with a bearing in at least one station, and without free force inputs. Its
-        bearings react to x and y, or are a `MomentCarryingJournal`, and have no states unless they are
-        linear, as a `FrequencyDependentReaction`, journal bearings whose oil warms, or have tilting pads.
-        Its speed may be a profile, or follow from a motor.
+        bearings react to x and y, or are a `MomentCarryingJournal`. Those that may have states are linear
+        ones, as a `FrequencyDependentReaction`, plain journal bearings whose oil warms, and tilting pads with
+        up to 48 states. The speed may be a profile, or follow from a motor.
     duration : float [s]
     samples : int
         Number of samples at equal distance, from 0 to `duration` inclusive.
@@ -168,7 +168,7 @@ def _verified(
     """Return the first run whose neglected shapes move the journals little enough, or that of the whole."""
     # The journals are looked at more often than at the times that are asked for.
     dense = np.union1d(grid, np.linspace(0.0, duration, CHECKED))
-    tried = TRIED * duration
+    tried = TRIAL_SHARE * duration
     work: Counter[str] = Counter()
     mounted, state, neglected = next(starts)
     while True:
@@ -327,7 +327,7 @@ def _shown_states(parts: compiled_rotor.Parts) -> np.ndarray:
 
 
 def exponentials(values: compiled_rotor.Complex, times: Array) -> compiled_rotor.Complex:
-    """Return exp(value t) at times, shape (n_times, n_values); at equal distances by products of few of them."""
+    """Return exp(value t) at times, shape (n_times, n_values); of even times by products of few of them."""
     count, block = len(times), max(1, math.isqrt(len(times)))
     step = (times[-1] - times[0]) / max(1, count - 1)
     even = times[0] + step * np.arange(count)
@@ -737,7 +737,8 @@ def excitation_struct(rows: Array | None) -> Any:
 
 def rate_of(modal: compiled_rotor.ModalRotor) -> float:
     """Return the largest angular speed [rad/s], or a slow mode's where the rotor does not turn."""
-    return modal.parts.nominal_speed or float(np.abs(modal.values).min())
+    of_shaft = np.any(modal.shapes[: 2 * len(modal.parts.structure.weight)] != 0.0, axis=0)
+    return modal.parts.nominal_speed or float(np.abs(modal.values[of_shaft]).min())
 
 
 def journal_scales(modal: compiled_rotor.ModalRotor) -> Array:
@@ -752,8 +753,10 @@ def journal_scales(modal: compiled_rotor.ModalRotor) -> Array:
 
 def _film_scales(bearing: Any, rate: float) -> Array:
     """Return what makes the states of a film dimensionless."""
-    sizes = {"K": KELVINS, "m": bearing.clearance, "m/s": bearing.clearance * rate}
-    return np.array([1.0 / sizes[signal.unit] for signal in bearing.states])
+    faster = rate / bearing.inputs[-1].nominal
+    sizes = [signal.nominal * (faster if signal.unit.endswith("/s") else 1.0) for signal in bearing.states]
+    kelvins = [signal.unit == "K" for signal in bearing.states]
+    return 1.0 / np.where(kelvins, KELVINS, sizes)
 
 
 # A run of a rotor whose speed may change its gyroscopic effect and rotating damping: march after march.

@@ -670,7 +670,8 @@ def compiled_form(rotor: Dynamic, reaction: Any) -> MountedRotor | None:
 
     - each bearing is linear, also with states, or adds a mass, or has a force in the C library. The last is a
       journal bearing or a damper whose film has a kernel (map, short film, grooved map, two-dimensional
-      film), or one of these beside springs, or a bearing of tilting pads. The oil of a journal bearing may
+      film), or one of these beside springs, or a bearing of tilting pads with up to 48
+      states. The oil of a journal bearing may
       warm, if its film has its losses in the C library too, as these have without supply pressure;
     - the rotor is a `RigidRotor` or a `FlexibleRotor`, mounted or not, whose equations no subclass has
       changed, without a loss factor; on ground that shakes, with a crack, or driven by a motor too.
@@ -765,7 +766,7 @@ SUDDEN = 2.0
 """Ratio of the response of a shape to a force that begins at once to that to a slow one."""
 
 
-FALLS = 2.0
+CONVERGENCE_POWER = 2.0
 """Power of their frequency with which the motion of neglected shapes is expected to fall."""
 
 Start = tuple[MountedRotor, Array, "NeglectedMotion | None"]
@@ -787,7 +788,7 @@ def starts(mounted: MountedRotor, state: Array, *, whole: bool) -> Generator[Sta
             begun = _within(model, state)
             unseen = neglected_motion(model, take_apart(small, over_time=True), state, begun)
             excess = yield small, begun, unseen
-            doublings = max(1, round(math.log2(excess) / FALLS)) if math.isfinite(excess) else 1
+            doublings = max(1, round(math.log2(excess) / CONVERGENCE_POWER)) if math.isfinite(excess) else 1
             frequency = max(frequency, 1.0) * 2.0**doublings
     yield mounted, state, None
 

@@ -190,7 +190,7 @@ def torque_call(torque: Any) -> FilmCall:
 
 
 def film_samples(bearing: Any, rows: Array, speed: float) -> tuple[Array, Array] | None:
-    """Return what a film in C with states answers at many motions; None without one, or where one fails.
+    """Return what a film in C with states answers at many motions; None without one, or beyond its map.
 
     Parameters
     ----------

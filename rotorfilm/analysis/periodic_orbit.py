@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -27,7 +28,7 @@ from .modal_reduction import FEW, Condensed, models
 from .port_orbits import PortRotor, carried_over, step_phases
 from .rotor_equilibrium import rotor_equilibrium
 from .threads import one_blas_thread
-from .whole_shaft import WholeShaft, feeds, slow_multipliers
+from .whole_shaft import InShapes, WholeShaft, slow_multipliers
 
 HARMONICS = 8
 """Harmonics at first."""
@@ -303,7 +304,7 @@ def series_of(rotor: harmonic_balance.PeriodicRotor, orbit: PeriodicOrbit) -> Ar
 
 
 @dataclass(frozen=True, eq=False)
-class CompiledRotor(harmonic_balance.ModalFilms):
+class CompiledRotor(InShapes, harmonic_balance.ModalFilms):
     """A rotor in modes on bearings that react to x and y without states, whose forces are asked for in C.
 
     Attributes
@@ -350,42 +351,32 @@ class CompiledRotor(harmonic_balance.ModalFilms):
 
     def state(self, series: Array, frequency: float, periods: int) -> Array:
         """Return the state of the rotor at phase 0 of an orbit."""
-        if self._shaft is None:
+        if self.shaft is None:
             return state_at_start(self.modal, series, frequency, periods)
-        return self._shaft.state(series, frequency, periods, self.forces)
+        return self.shaft.state(series, frequency, periods, self.forces)
 
     @cached_property
-    def _shaft(self) -> WholeShaft | None:
+    def shaft(self) -> WholeShaft | None:
         """All of the shaft; None where it moves in all of its coordinates."""
         if self.model is None or self.model.space is None:
             return None
         return WholeShaft(self.model, self.names, self.modal.spring, self.modal.damper, self.speed)
 
-    def neglected(self, balance: harmonic_balance.Balance[Any], series: Array, frequency: float) -> float:
-        """Return the imbalance of an orbit by the shapes that were left out, in clearances.
+    @property
+    def shaft_forces(self) -> Callable[[Array, Array], Array]:
+        """The forces of films and springs at places and rates of the journals."""
+        return self.forces
 
-        It is infinite where a bearing may drive motions faster than those whose multipliers are known.
-        """
-        if self._shaft is None:
-            return 0.0
-        if self._drives_fast_motions(series, frequency):
-            return math.inf
-        force = balance.force_series(series, frequency)
-        missing = self._shaft.missing(series, force, frequency, balance.periods)
-        return float(np.abs(missing / self.units[:, None]).max())
+    def fast_films(self, position: Array, velocity: Array) -> tuple[Callable[[float], Complex], Complex]:
+        """Return what the mean slopes over an orbit answer at a frequency, and no poles."""
+        _, by_row, by_rate = self.tangents(position, velocity)
+        K, C = (part.mean(axis=-1).reshape(-1, 2, 2) for part in (by_row, by_rate))
+        C = C - self.modal.damper.reshape(-1, 2, 1) * np.eye(2)
+        return lambda w: K + 1j * w * C, np.zeros(0, dtype=complex)
 
     def multipliers(self, series: Array, frequency: float) -> Complex:
         """Return the Floquet multipliers of an orbit, the largest first."""
-        known_to = math.inf if self._shaft is None else self._shaft.known_to
-        return multipliers(self.modal, series, frequency, known_to)
-
-    def _drives_fast_motions(self, series: Array, frequency: float) -> bool:
-        """Return whether a bearing, on its mean slopes over an orbit, may feed motions of high frequency."""
-        assert self._shaft is not None
-        at, fast = harmonic_balance.basis(series.shape[1] // 2, 2 * series.shape[1] + 6), self._shaft.known_to
-        _, by_row, by_rate = self.tangents(series @ at.values.T, frequency * (series @ at.slopes.T))
-        K, C = (part.mean(axis=-1).reshape(-1, 2, 2) for part in (by_row, by_rate))
-        return feeds(K + 1j * fast * (C - self.modal.damper.reshape(-1, 2, 1) * np.eye(2)), fast)
+        return multipliers(self.modal, series, frequency, self.known_to)
 
 
 # Floquet multipliers of a periodic orbit: the monodromy matrix, integrated with the slopes of the films.

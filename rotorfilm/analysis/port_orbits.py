@@ -34,10 +34,10 @@ from .compiled_march import STAGES, ModalArrays, StepTable, radau_scheme
 from .compiled_rotor import LARGEST_CONDITION, Complex, modes
 from .equilibrium import equilibrium
 from .force_calls import film_samples
-from .harmonic_balance import Receptance, at_start, basis, series_rows, with_wave
+from .harmonic_balance import Receptance, at_start, series_rows, with_wave
 from .modal_reduction import Condensed
 from .rotor_equilibrium import rotor_equilibrium
-from .whole_shaft import WholeShaft, feeds, slow_multipliers
+from .whole_shaft import InShapes, WholeShaft, slow_multipliers
 
 STEPS_PER_HARMONIC, LEAST_STEPS = 2, 64
 """Steps of the monodromy matrix."""
@@ -82,7 +82,7 @@ class LinearizedRotor(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class PortRotor:
+class PortRotor(InShapes):
     """A rotor at constant speed in reactions of any freedoms, with states or without.
 
     Attributes
@@ -370,8 +370,8 @@ class PortRotor:
 
     def state(self, series: Array, frequency: float, periods: int) -> Array:
         """Return the state of rotor and bearings at phase 0 of an orbit."""
-        if self._shaft is not None:
-            shaft = self._shaft.state(series, frequency, periods, self._on_shaft)
+        if self.shaft is not None:
+            shaft = self.shaft.state(series, frequency, periods, self.shaft_forces)
             now = series[:, : series.shape[1] // 2 + 1].sum(axis=1)
             return np.concatenate(
                 [shaft, *(now[b][m.size :] for m, b in zip(self.mounts, self.blocks, strict=True))]
@@ -385,55 +385,45 @@ class PortRotor:
         return np.asarray(at_start(series, frequency, self.forces, answer))
 
     @cached_property
-    def _shaft(self) -> WholeShaft | None:
+    def shaft(self) -> WholeShaft | None:
         """All of the shaft, on springs about as stiff as its films; None where all of it moves."""
         if self.model is None or self.model.space is None:
             return None
-        spring = np.repeat([np.abs(self.small.by_row[b][:2, :2]).max() for b in self.blocks], 2)
-        return WholeShaft(self.model, self.names, spring, spring / (abs(self.speed) or 1.0), self.speed)
+        at_rest = self._stiffness_at(self._square(self.small.by_row[..., None])[0], None, 0.0)
+        size = float(np.abs(at_rest).max()) or float(np.abs(self.model.whole.stiffness).max())
+        spring = np.full(2 * len(self.names), size)
+        damper = spring / (abs(self.speed) or 1.0)
+        return WholeShaft(self.model, self.names, spring, damper, self.speed, self.unbalanced)
 
-    def _on_shaft(self, position: Array, velocity: Array) -> Array:
+    def _stiffness_at(self, by_row: Array, by_rate: Array | None, frequency: float) -> Complex:
+        """Return forces per displacement along x and y at a frequency, with the states that follow it."""
+        found, s = [], 1j * frequency
+        for b in self.blocks:
+            whole = by_row[b, b] if by_rate is None else by_row[b, b] + s * by_rate[b, b]
+            inner = np.linalg.solve(s * np.eye(len(whole) - 2) - by_row[b, b][2:, 2:], whole[2:, :2])
+            found.append(whole[:2, :2] + by_row[b, b][:2, 2:] @ inner)
+        return np.array(found)
+
+    def shaft_forces(self, position: Array, velocity: Array) -> Array:
         """Return the forces on the journals with those that the springs of the shaft give back."""
-        assert self._shaft is not None
+        assert self.shaft is not None
         small, own = self.small, [k for b in self.blocks for k in (b.start, b.start + 1)]
         springs, dampers = (self._square(part[..., None])[0] for part in (small.by_row, small.by_rate))
         force = self.forces(position, velocity) + springs @ position + dampers @ velocity
-        given = self._shaft.spring[:, None] * position[own] + self._shaft.damper[:, None] * velocity[own]
+        given = self.shaft.spring[:, None] * position[own] + self.shaft.damper[:, None] * velocity[own]
         return np.asarray(force[own] + given)
 
-    def neglected(self, balance: Any, series: Array, frequency: float) -> float:
-        """Return the imbalance of an orbit by the shapes that were left out, in clearances.
-
-        It is infinite where a bearing may drive motions faster than those whose multipliers are known.
-        """
-        if self._shaft is None:
-            return 0.0
-        if self._drives_fast_motions(series, frequency):
-            return math.inf
-        at = balance.basis
-        force = self._on_shaft(series @ at.values.T, frequency * (series @ at.slopes.T)) @ at.back.T
-        journals = self.journal_series(series).reshape(-1, series.shape[1])
-        missing = self._shaft.missing(journals, force, frequency, balance.periods, self.unbalanced)
-        return float(np.abs(missing / np.repeat(self.lengths, 2)[:, None]).max())
-
-    def _drives_fast_motions(self, series: Array, frequency: float) -> bool:
-        """Return whether a bearing, on its mean slopes over an orbit, may feed motions of high frequency."""
-        assert self._shaft is not None
-        at, s = basis(series.shape[1] // 2, 2 * series.shape[1] + 6), 1j * self._shaft.known_to
-        slopes = self._slopes(series @ at.values.T, frequency * (series @ at.slopes.T))
+    def fast_films(self, position: Array, velocity: Array) -> tuple[Callable[[float], Complex], Complex]:
+        """Return what the mean slopes over an orbit answer at a frequency, and the poles of that."""
+        slopes = self._slopes(position, velocity)
         by_row, by_rate = (self._square(part).mean(axis=0) for part in slopes)
-        found = []
-        for b in self.blocks:
-            whole = (by_row + s * by_rate)[b, b]
-            inner = np.linalg.solve(s * np.eye(len(whole) - 2) - by_row[b, b][2:, 2:], whole[2:, :2])
-            found.append(whole[:2, :2] + by_row[b, b][:2, 2:] @ inner)
-        return feeds(np.array(found), s.imag)
+        poles = np.concatenate([np.linalg.eigvals(by_row[b, b][2:, 2:]) for b in self.blocks])
+        return lambda w: self._stiffness_at(by_row, by_rate, w), poles.astype(complex)
 
     def multipliers(self, series: Array, frequency: float) -> Complex:
         """Return the Floquet multipliers, the largest first."""
-        known_to = math.inf if self._shaft is None else self._shaft.known_to
         values, shapes, inverse, matrix = self._modes_and_monodromy(series, frequency, None)
-        return slow_multipliers(matrix, self._scale, values, shapes, inverse, known_to)
+        return slow_multipliers(matrix, self._scale, values, shapes, inverse, self.known_to)
 
     def monodromy(self, series: Array, frequency: float, steps: int | None = None) -> Array:
         """Return how a small change of the state is mapped over one period, shape (Z, Z)."""

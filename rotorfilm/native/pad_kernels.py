@@ -153,7 +153,7 @@ class TiltingKernel:
             kept.setflags(write=False)
         return RestPoint(force, slopes, dict(zip(REST, rests.T, strict=True)), status, pad.value)
 
-    def moving(self, beyond: str) -> FilmCall:
+    def call_with_states(self, beyond: str) -> FilmCall:
         """Return force and rates of the states over motion, speed and states, with what a `FilmCall` says."""
         return FilmCall(
             address_of("rf_tilting_moving"), addressof(self.struct), self, beyond, states=self.states

@@ -356,7 +356,7 @@ class TiltingPadBearing(Called, PadBearing):
         """Return force and rates of the pads for loops in C (`rf_tilting_moving`); None of a subclass."""
         if type(self) is not TiltingPadBearing or self.is_warming:
             return None
-        return self.kernel.moving(continued(self.kernel.film))
+        return self.kernel.call_with_states(continued(self.kernel.film))
 
     def outputs_over_time(self, states: Array, position: Array, velocity: Array, speed: Array) -> Array:
         """Return the outputs at many states and motions, shape (2 + N, n); it warns of nothing.
@@ -366,6 +366,11 @@ class TiltingPadBearing(Called, PadBearing):
         states : ndarray, shape (n_states, n)
         position, velocity : ndarray, shape (2, n) [m], [m/s]
         speed : ndarray, shape (n,) [rad/s]
+
+        Raises
+        ------
+        FilmContactError
+            If the journal touches a pad; the message names it.
         """
         moments = zip(np.array([*position, *velocity, speed]).T, states.T, strict=True)
         points = [(u, self.kernel.at(u, x)) for u, x in moments]

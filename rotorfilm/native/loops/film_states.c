@@ -4,7 +4,7 @@
 
 #include "../solvers/dense.h"
 
-/* Unknowns at s nodes: `each` of them, of which `rest` are forces and the acceleration of a motor. */
+/* Static condensation: unknowns at s nodes, `each` of them, of which `rest` stay, forces and the acceleration of a motor. */
 typedef struct sizes {
     int32_t s, each, forces, rest, kept; /* kept: s rest */
 } sizes;
@@ -57,7 +57,7 @@ static void solve_rates(const sizes *of, int32_t first, int32_t n, const double 
 }
 
 /* Take them out of the equations of the forces, a row of all unknowns of these. */
-static void take_rates(const sizes *of, int32_t first, int32_t n, const double *row, const double *rates, double *left,
+static void take_rates(const sizes *of, int32_t first, int32_t n, const double *row, const double *rates, double *reduced,
                        double *right)
 {
     const int32_t wide = of->kept + 1;
@@ -67,7 +67,7 @@ static void take_rates(const sizes *of, int32_t first, int32_t n, const double *
             if (by == 0.0)
                 continue;
             for (int32_t c = 0; c < of->kept; ++c)
-                left[c] -= by * rate[c];
+                reduced[c] -= by * rate[c];
             *right -= by * rate[of->kept];
         }
 }
@@ -77,8 +77,8 @@ void rf_solve_with_states(const rf_journals *journals, int32_t s, int32_t each, 
 {
     const sizes of = sizes_of(journals, s, each);
     const int32_t kept = of.kept, most = s * journals->most;
-    double *const own = memory, *const left = own + most * most, *const few = left + kept * kept;
-    double *const rates = few + kept;
+    double *const own = memory, *const reduced = own + most * most, *const solved = reduced + kept * kept;
+    double *const rates = solved + kept;
     for (int32_t b = 0; b < journals->count; ++b) {
         const int32_t first = journals->first[b];
         solve_rates(&of, of.forces + first, rf_film_states(journals, b), matrix, right, own, rates + s * first * (kept + 1));
@@ -87,21 +87,21 @@ void rf_solve_with_states(const rf_journals *journals, int32_t s, int32_t each, 
         for (int32_t r = 0; r < of.rest; ++r, ++q) {
             const int32_t place = place_of(&of, i, r), b = r / 2;
             const double *row = matrix + place * s * each;
-            copy_rest(&of, row, left + q * kept);
-            few[q] = right[place];
+            copy_rest(&of, row, reduced + q * kept);
+            solved[q] = right[place];
             if (b < journals->count)
                 take_rates(&of, of.forces + journals->first[b], rf_film_states(journals, b), row,
-                           rates + s * journals->first[b] * (kept + 1), left + q * kept, few + q);
+                           rates + s * journals->first[b] * (kept + 1), reduced + q * kept, solved + q);
         }
-    rf_eliminate((size_t)kept, left, 1, few);
+    rf_eliminate((size_t)kept, reduced, 1, solved);
     for (int32_t q = 0; q < kept; ++q)
-        right[place_of(&of, q / of.rest, q % of.rest)] = few[q];
+        right[place_of(&of, q / of.rest, q % of.rest)] = solved[q];
     for (int32_t b = 0; b < journals->count; ++b)
         for (int32_t p = 0, n = rf_film_states(journals, b); p < s * n; ++p) {
             const double *rate = rates + (s * journals->first[b] + p) * (kept + 1);
             double *to = right + p / n * each + of.forces + journals->first[b] + p % n;
             *to = rate[kept];
             for (int32_t c = 0; c < kept; ++c)
-                *to -= rate[c] * few[c];
+                *to -= rate[c] * solved[c];
         }
 }

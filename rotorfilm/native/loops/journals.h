@@ -23,7 +23,7 @@ typedef struct rf_journals {
     int32_t points;                /* of each journal, 1 or 2 */
     const rf_response *films;
     const void *const *of;
-    const double *rest;            /* rf_state_count: motion, and states of films, about which those of the rotor are counted */
+    const double *rest;            /* rf_state_count: motion and states of films about which those of the rotor count */
     const double *spring, *damper; /* 2 n [N/m], [N s/m] */
     const double *lengths;         /* n: typical displacements [m] */
     const double *walls;           /* n: eccentricities at which a journal counts as touching [m] */
@@ -73,9 +73,10 @@ static inline void rf_add_inertia(const double *mass, const double *slopes, cons
     }
 }
 
-/* Films' forces and springs (rf_force_count) at one motion (rf_state_count, and with added masses 2 n accelerations), and
-   slopes by that of the same journal (rf_force_count x rf_slope_width); the most severe status. `turned` is the angle of the shaft, which
-   films without tilt find behind their state. `near` is about what `force` becomes, for films with states, or NULL. Slopes by the speed go to `by_speed` (as many as forces) unless it is NULL. */
+/* Films' forces and springs (rf_force_count) at one motion (rf_state_count, and with added masses 2 n accelerations),
+   and slopes by that of the same journal (rf_force_count x rf_slope_width); the most severe status. `turned` is the
+   angle of the shaft, which films without tilt find behind their state. `near` is about what `force` becomes, for films
+   with states, or NULL. Slopes by the speed go to `by_speed` (as many as forces) unless it is NULL. */
 int rf_set_forces(const rf_journals *journals, const double *motion, double speed, double turned, const double *near,
                   double *force, double *slope, double *by_speed);
 

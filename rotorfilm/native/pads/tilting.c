@@ -275,7 +275,8 @@ int rf_tilting_moving(const void *of, const double *state, double *answer, doubl
         memcpy(by + (5 + n) * i + 5, by_x, n * sizeof *by);
     }
     free(y);
-    return status;
+    /* Pads with inertia at rest have a force, but no slopes. */
+    return status <= RF_OUTSIDE && rf_is_broken(by, (int32_t)((2 + n) * (5 + n))) ? RF_UNDEFINED : status;
 }
 
 int rf_tilting_forces(const rf_tilting *bearing, size_t n, const double *u, const double *q, const double *rate,

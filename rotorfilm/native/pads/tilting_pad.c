@@ -131,12 +131,12 @@ int rf_pad_follow(const rf_tilting_pad *pad, const double *e, const double *near
         /* The moment falls with w_t all along. */
         *(f[1] > 0.0 ? &low : &high) = w[1];
         double next = w[1] - f[1] / by[7];
-        const double left = ROUNDOFF * (fabs(w[1]) + w[0]);
+        const double tolerance = ROUNDOFF * (fabs(w[1]) + w[0]);
         const int bounded = isfinite(low) && isfinite(high);
-        const int slow = bounded && step >= FREE && high - low > 0.5 * width && !(fabs(next - w[1]) <= left);
+        const int slow = bounded && step >= FREE && high - low > 0.5 * width && !(fabs(next - w[1]) <= tolerance);
         if (slow || !(next >= low && next <= high))
             next = bounded ? 0.5 * (low + high) : w[1] + copysign(w[0] + fabs(w[1]), f[1]);
-        if (f[1] == 0.0 || fabs(next - w[1]) <= left) {
+        if (f[1] == 0.0 || fabs(next - w[1]) <= tolerance) {
             for (int k = 0; jacobian && k < 10; ++k)
                 jacobian[k] = by[k];
             f[1] = 0.0;

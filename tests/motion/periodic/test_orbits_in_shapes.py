@@ -8,6 +8,7 @@ import pytest
 
 from rotorfilm import (
     Cooling,
+    FrequencyDependentReaction,
     JournalBearing,
     LinearBearing,
     Oil,
@@ -18,8 +19,10 @@ from rotorfilm import (
     mount,
     periodic_orbit,
 )
+from rotorfilm.analysis import harmonic_balance
 from rotorfilm.analysis.force_calls import film_samples
 from rotorfilm.analysis.modal_reduction import counted, models
+from rotorfilm.analysis.periodic_orbit import orbit_rotor
 from rotorfilm.rotors import Station
 
 from ...linear.test_big_rotors import long_rotor
@@ -106,6 +109,54 @@ def test_a_bearing_that_drives_fast_motions_is_seen_beside_pads():
     assert len(orbit.multipliers) == len(orbit.state)
     calm = periodic_orbit(mount(rotor, bearings | {"seal": LinearBearing(stiffness=0.0, damping=100.0)}))
     assert len(calm.multipliers) < len(calm.state)
+
+
+def resonant(gain):
+    """Return a bearing with the force gain w^2/(s^2 + 0.04 w s + w^2), w = 2340 rad/s, and dampers."""
+    w, pair = 2340.0, np.eye(2)
+    return FrequencyDependentReaction(
+        A=np.kron(pair, [[0.0, w], [-w, -0.04 * w]]),
+        B=np.kron(pair, [[0.0], [w]]),
+        C=np.kron(pair, [[gain, 0.0]]),
+        D=np.zeros((2, 2)),
+        damping=100.0 * pair,
+    )
+
+
+@pytest.mark.parametrize(("gain", "is_stable"), [(-1e6, False), (1e3, True)])
+def test_states_that_feed_one_fast_motion_are_found(gain, is_stable):
+    rotor = mounted(6).bare
+    rotor = replace(rotor, stations=(*rotor.stations, Station(node=1, name="seal")))
+    orbit = periodic_orbit(mount(rotor, {"left": BEARING, "right": BEARING, "seal": resonant(gain)}))
+    assert orbit.stable is is_stable
+    assert (len(orbit.multipliers) < len(orbit.state)) is is_stable
+
+
+def test_a_stiffness_that_states_make_holds_the_shaft(monkeypatch):
+    pair = np.eye(2)
+    followed = FrequencyDependentReaction(
+        A=-2000.0 * pair, B=2000.0 * pair, C=-5e6 * pair, D=np.zeros((2, 2)), damping=2e4 * pair
+    )
+    few = periodic_orbit(mounted(6, bearing=followed))
+    monkeypatch.setattr(sys.modules[SEARCH], "_model", lambda rotor, level: None)
+    whole = periodic_orbit(mounted(6, bearing=followed))
+    assert len(few.multipliers) < len(whole.multipliers)
+    assert few.state == pytest.approx(whole.state, abs=1e-8 * np.abs(whole.state).max())
+    assert 0.0 < few.residual < 1e-7
+
+
+def test_a_part_of_the_unbalance_bends_the_shapes_left_out_as_much(monkeypatch):
+    def half():
+        rotor = orbit_rotor(mounted(6, bearing=PADS)).loaded(0.5)
+        balance = harmonic_balance.Balance(rotor=rotor, harmonics=8, periods=1)
+        found = harmonic_balance.solve(balance, harmonic_balance.constant(rotor.guess(), 8), 150.0, 1e-10)
+        series = found.series
+        return rotor.state(series, 150.0, 1), rotor.neglected(balance, series, 150.0)
+
+    state, missing = half()
+    monkeypatch.setattr(sys.modules[SEARCH], "_model", lambda rotor, level: None)
+    assert 0.0 < missing < 1e-7
+    assert state == pytest.approx(half()[0], abs=1e-6 * np.abs(state).max())
 
 
 @pytest.mark.parametrize("bearing", [PADS, SPRUNG, WARM.in_time()], ids=["pads", "springs", "warm"])
