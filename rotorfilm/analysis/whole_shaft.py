@@ -114,9 +114,9 @@ class WholeShaft:
 class InShapes:
     """What a rotor in few shapes of its shaft leaves out of a periodic orbit.
 
-    It needs `shaft`, which is None where all of it moves, `lengths`, `journal_series`, `shaft_forces` for the
-    forces of films and of the springs of the shaft at places and rates, and `fast_films` for a function that
-    returns Z (n_bearings, 2, 2) of their mean slopes at a frequency, with the poles of Z.
+    It needs `lengths`, `journal_series`, and `shaft`, which is None where all of it moves. `shaft_forces` has
+    the forces of films and of the springs of the shaft at places and rates. `fast_films` has Z of the mean
+    slopes of the films over the frequency, shape (n_bearings, 2, 2), and its poles.
     """
 
     def neglected(self: Any, balance: Any, series: Array, frequency: float) -> float:

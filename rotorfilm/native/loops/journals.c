@@ -68,8 +68,8 @@ static int with_states(const rf_journals *journals, int32_t b, int32_t n, double
     return status;
 }
 
-/* A journal without tilt at x, y, vx, vy and the states of its film and rates near theirs: force[2], slope[2][4], with more columns for these
-   and the acceleration. */
+/* A journal without tilt at x, y, vx, vy, the states of its film and rates near theirs: force[2], slope[2][4], with more
+   columns for the states and the acceleration. */
 static int planar(const rf_journals *journals, int32_t b, const double *at, const double *a, const double *turning,
                   double *force, double *slope, double *by_speed)
 {

@@ -15,9 +15,10 @@
    before.
 
    States of films, as a temperature or the tilts of pads, are behind the motion of all journals, and their rates behind
-   the forces of all of them. A film with n states is asked at (x, y, vx, vy, speed, states, rates) and answers 2 forces and n
-   rates with (2 + n) (5 + n) slopes; the rates that it is given are near those, or NaN, and it may begin there. Its states decay by themselves in the rotor, which is given back here as the springs
-   are. No journal may feel its tilt beside them. */
+   the forces of all of them. A film with n states is asked at (x, y, vx, vy, speed, states, rates) and answers 2 forces
+   and n rates with (2 + n) (5 + n) slopes. The rates that it is given are near those, or NaN, and it may begin there.
+   Its states decay by themselves in the rotor, which is given back here as the springs are. No journal may feel its tilt
+   beside them. */
 typedef struct rf_journals {
     int32_t count;                 /* of points: n */
     int32_t points;                /* of each journal, 1 or 2 */

@@ -28,7 +28,8 @@ int rf_open_scratch(rf_scratch *at, const rf_march *march)
     const size_t drives = march->spin.matrix ? 2 * modes : 0;
     const size_t sizes[] = {s * channels, s * channels, channels, 2 * modes, s * rows, s * rows,  s * rows,
                             s, s, all, wide * all, s * drives, s * drives, drives, s * drives, size * size,
-                            size, s, 2 * s, s, all, driven, rf_states_size(&march->journals, s, each), 2 * modes * s, 2 * modes * s};
+                            size, s, 2 * s, s, all, driven, rf_states_size(&march->journals, s, each),
+                            2 * modes * s, 2 * modes * s};
     double **const places[] = {&at->u,      &at->guess, &at->start, &at->both,   &at->free, &at->motion,
                                &at->before, &at->speed, &at->turned, &at->force, &at->slope, &at->drive,
                                &at->drive_before, &at->drive_start, &at->push, &at->matrix, &at->right,
