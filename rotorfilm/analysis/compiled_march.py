@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Generator, Iterator, Mapping
 from ctypes import addressof, byref, c_double, c_int32, c_int64
 from dataclasses import replace
 from enum import IntEnum
@@ -36,7 +36,7 @@ from ..core.signals import indices, names, units
 from ..native.film_call import FilmCall
 from ..native.library import loops
 from ..native.structs import constant, structure
-from ..rotors import MotorDrivenRotor, MountedRotor, SpeedProfile
+from ..rotors import FlexibleRotor, MotorDrivenRotor, MountedRotor, RigidRotor, SpeedProfile, mount
 from ..rotors.structure import freedom_rows, output_rows, prefixed
 from . import compiled_rotor
 from .bearing_forces import bearing_forces
@@ -154,44 +154,55 @@ def simulate_rotor(
     if isinstance(driven, MotorDrivenRotor):
         place = len(driven.rotor.states)
         begun, state = tuple(state[place : place + 2].tolist()), np.delete(state, [place, place + 1])
-    run = partial(_run, rtol=rtol, max_step=max_step, begun=begun)
-    return _verified(starts(mounted, state, whole=condensation == 0.0), run, grid, duration, condensation)
+    run_of = partial(_run, rtol=rtol, max_step=max_step, begun=begun)
+    every = starts(driven, partial(_mounted, mounted.all_bearings), state, whole=condensation == 0.0)
+    run = verified(every, run_of, grid, duration, condensation)
+    for bearing in mounted.all_bearings.values():
+        require_turned(bearing, mounted.bare, run.signals)
+    warn_of_thin_films(mounted.all_bearings, run)
+    return run
 
 
-def _verified(
+def _mounted(bearings: Mapping[str, Any], bare: Any) -> tuple[MountedRotor, compiled_rotor.Parts]:
+    """Return a rotor in its bearings, and its parts."""
+    mounted = mount(bare, bearings)
+    return mounted, compiled_rotor.take_apart(mounted, over_time=True)
+
+
+def verified(
     starts: Generator[compiled_rotor.Start, float, None],
     run_of: Callable[..., tuple[Trajectory, Array, Array, Exception | None]],
     grid: Array,
     duration: float,
     condensation: float,
 ) -> Trajectory:
-    """Return the first run whose neglected shapes move the journals little enough, or that of the whole."""
+    """Return the first run whose neglected shapes move the journals little enough, or that of the whole.
+
+    `run_of` takes a start, times and duration, and returns the run, the states at its times, angle, speed and
+    acceleration there, and what ended it early, which is raised with what there is.
+    """
     # The journals are looked at more often than at the times that are asked for.
     dense = np.union1d(grid, np.linspace(0.0, duration, CHECKED))
     tried = TRIAL_SHARE * duration
     work: Counter[str] = Counter()
-    mounted, state, neglected = next(starts)
+    start = next(starts)
     while True:
-        parts, excess = compiled_rotor.take_apart(mounted, over_time=True), 0.0
-        trials = [(dense[dense <= tried], tried), (dense, duration)] if neglected else [(grid, duration)]
+        excess = 0.0
+        first, whole = (dense[dense <= tried], tried), (dense, duration)
+        trials = [first, whole] if start.neglected is not None else [(grid, duration)]
         for times, until in trials:
-            run, states, turn, failure = run_of(
-                mounted, state, parts, times, duration=until, whole=neglected is not None
-            )
+            run, states, turn, failure = run_of(start, times, duration=until)
             work.update(run.work)
-            if neglected is not None:
-                excess = neglected.largest(run, states, turn) / condensation
+            if start.neglected is not None:
+                excess = start.neglected.largest(run, states, turn) / condensation
             if not excess <= 1.0:
                 break
         if excess <= 1.0:
             break
-        mounted, state, neglected = starts.send(excess)
+        start = starts.send(excess)
     picked = replace(_at(run, grid), work=dict(work))
     if failure is not None:
         raise type(failure)(str(failure), picked) from failure
-    for bearing in mounted.all_bearings.values():
-        require_turned(bearing, mounted.bare, picked.signals)
-    warn_of_thin_films(mounted.all_bearings, picked)
     return picked
 
 
@@ -202,22 +213,20 @@ def _at(run: Trajectory, grid: Array) -> Trajectory:
 
 
 def _run(
-    mounted: MountedRotor,
-    state: Array,
-    parts: compiled_rotor.Parts,
+    start: compiled_rotor.Start,
     grid: Array,
     *,
     duration: float,
     rtol: float,
     max_step: float,
     begun: tuple[float, float],
-    whole: bool,
 ) -> tuple[Trajectory, Array, Array, Exception | None]:
     """Return a run, the states at its times, the turning of the shaft there, and what ended it early.
 
     What began is the angle and the speed of a rotor on a motor, whose states have neither.
     """
-    if (exact := linear_states(parts, state, grid, whole=whole)) is not None:
+    mounted, parts, state, neglected = start
+    if (exact := linear_states(parts, state, grid, whole=neglected is not None)) is not None:
         turn = parts.profile.turn(grid)
         return _trajectory(mounted, grid, exact, parts, turn, dict.fromkeys(_COUNTERS, 0)), exact, turn, None
     rate = parts.nominal_speed or rate_of(compiled_rotor.modal_rotor(parts, 0.0))
@@ -919,8 +928,10 @@ def require_duration(rotor: Dynamic, duration: float) -> None:
 
 def highest_speed(rotor: Dynamic, duration: float) -> float:
     """Return the highest speed of a rotor at its start and where its speed bends within a run [rad/s]."""
-    speed = indices("rotor must have the outputs", names(rotor.outputs), ["speed"])
     moments = [0.0, *(t for t in breakpoints(rotor) if 0.0 < t < duration), duration]
+    if isinstance(rotor, RigidRotor | FlexibleRotor):  # whose outputs take all matrices
+        return float(max(abs(rotor.profile.speed(t)) for t in moments))
+    speed = indices("rotor must have the outputs", names(rotor.outputs), ["speed"])
     none = np.zeros(len(rotor.inputs))
     return float(max(np.abs(rotor.output(t, rotor.initial_state, none)[speed]).max() for t in moments))
 

@@ -12,7 +12,7 @@ a rotor that is free to move would have no complete set of modes. Of each conjug
 from __future__ import annotations
 
 import math
-from collections.abc import Generator, Iterable, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from ctypes import byref
 from dataclasses import replace
 from typing import Any, NamedTuple, cast
@@ -769,28 +769,55 @@ SUDDEN = 2.0
 CONVERGENCE_POWER = 2.0
 """Power of their frequency with which the motion of neglected shapes is expected to fall."""
 
-Start = tuple[MountedRotor, Array, "NeglectedMotion | None"]
-"""A rotor in some shapes, its state at t = 0, and what these shapes do not show; None if it is whole."""
+
+class Start(NamedTuple):
+    """A rotor in some of its shapes, or whole.
+
+    Attributes
+    ----------
+    rotor : Any
+        As it is to be run.
+    parts : Parts
+    state : ndarray
+        Its state at t = 0.
+    neglected : NeglectedMotion or None
+        What the shapes do not show; None if it is whole.
+    """
+
+    rotor: Any
+    parts: Parts
+    state: Array
+    neglected: NeglectedMotion | None
 
 
-def starts(mounted: MountedRotor, state: Array, *, whole: bool) -> Generator[Start, float, None]:
+def starts(
+    bare: Any, joined: Callable[[Any], tuple[Any, Parts]], state: Array, *, whole: bool
+) -> Generator[Start, float, None]:
     """Yield a rotor in ever more of its shapes, and whole in the end or at once.
 
     It is to be sent how many times too large the motion of the neglected shapes was.
+
+    Parameters
+    ----------
+    bare : Dynamic
+        The rotor without its bearings.
+    joined : callable
+        Returns such a rotor with its bearings, as it is to be run, and its parts.
+    state : ndarray
+        State of the whole at t = 0.
+    whole : bool
     """
-    bare: Any = mounted.bare
-    rotor = _inner(mounted) if type(bare) is MotorDrivenRotor else bare
+    rotor = bare.rotor if type(bare) is MotorDrivenRotor else bare
     if not whole and isinstance(rotor, FlexibleRotor) and rotor.assembly.hysteresis is None:
         frequency = FREQUENCY * bare.nominal_speed
         while (model := next(models(rotor, frequency))).space is not None:
             small: Any = MatrixRotor(rotor, model.structure)
-            small = mount(small if rotor is bare else replace(bare, rotor=small), mounted.all_bearings)
+            run, parts = joined(small if rotor is bare else replace(bare, rotor=small))
             begun = _within(model, state)
-            unseen = neglected_motion(model, take_apart(small, over_time=True), state, begun)
-            excess = yield small, begun, unseen
+            excess = yield Start(run, parts, begun, neglected_motion(model, parts, state, begun))
             doublings = max(1, round(math.log2(excess) / CONVERGENCE_POWER)) if math.isfinite(excess) else 1
             frequency = max(frequency, 1.0) * 2.0**doublings
-    yield mounted, state, None
+    yield Start(*joined(bare), state, None)
 
 
 def _within(model: Condensed, state: Array) -> Array:

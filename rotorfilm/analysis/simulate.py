@@ -64,7 +64,7 @@ def simulate(
     The added mass of the oil of a damper is part of the same system. A linear rotor on films that have
     kernels is integrated in C, as by `simulate_rotor`, and all others by scipy. A mass-conserving film, such
     as `JFOFilm`, is solved together with the rotor in one Newton iteration per step, by backward differences
-    of second order.
+    of second order. A long shaft moves in as many shapes as keep each journal within 1e-5 of its clearance.
 
     Parameters
     ----------

@@ -32,9 +32,9 @@ from ..native.film_kernels import Status
 from ..native.library import loops
 from ..native.structs import structure
 from ..rotors import FlexibleRotor, MountedRotor, RigidRotor
-from ..rotors.structure import prefixed, station_names
-from .compiled_march import highest_speed
-from .compiled_rotor import CONTACT_GAP, is_linear
+from ..rotors.structure import freedom_rows, prefixed, station_names
+from .compiled_march import highest_speed, verified
+from .compiled_rotor import CONTACT_GAP, Parts, Start, is_linear, starts
 from .force_calls import of_station
 
 STEPS_A_TURN = 384
@@ -51,6 +51,9 @@ MOST_GROWTH = 2.0
 
 AT_ONCE, FRAMES = 256, 8
 """Steps that the compiled loop makes in one call, at most, and frames that are kept."""
+
+CONDENSATION = 1e-5
+"""Largest displacement of a journal by the shapes of a long shaft that a run leaves out, in clearances."""
 
 FAILURES: dict[int, type[Exception]] = {Status.AT_WALL: FilmContactError, Status.NO_MEMORY: MemoryError}
 """What answers of the compiled loop mean, if not that a search does not end."""
@@ -82,11 +85,43 @@ def simulate_steps(
     ContactError, ConvergenceError
         As `simulate`, with the trajectory until then.
     """
-    loop = SteppedLoop(rotor, stations_of(rotor, films))
+    stations = stations_of(rotor, films)
     state = require_finite("initial_state", rotor.initial_state if initial_state is None else initial_state)
     if state.shape != (len(rotor.states),):
         raise InputError(f"initial_state must have shape ({len(rotor.states)},), got {state.shape}")
     longest = max_step if math.isfinite(max_step) else part_of_turn(rotor, duration)
+    if not (isinstance(rotor, FlexibleRotor) and is_linear(rotor)):
+        run, _, failure = _stepped(rotor, stations, times, duration, state, longest)
+        if failure is not None:
+            raise type(failure)(str(failure), run) from failure
+        return run
+
+    def joined(bare: FlexibleRotor) -> tuple[FlexibleRotor, Parts]:
+        structure = bare.structure
+        rows = np.concatenate([freedom_rows(structure, one.name) for one in stations])
+        every = tuple(one.film for one in stations), tuple(one.name for one in stations)
+        return bare, Parts(structure, bare.profile, *every, rows)
+
+    def run_of(
+        start: Start, at: Array, *, duration: float
+    ) -> tuple[Trajectory, Array, Array, Exception | None]:
+        found = stations_of(start.rotor, films)
+        run, states, failure = _stepped(start.rotor, found, at, duration, start.state, longest)
+        return run, states, start.parts.profile.turn(run.time), failure
+
+    return verified(starts(rotor, joined, state, whole=False), run_of, times, duration, CONDENSATION)
+
+
+def _stepped(
+    rotor: Dynamic,
+    stations: tuple[FilmStation, ...],
+    times: Array,
+    duration: float,
+    state: Array,
+    longest: float,
+) -> tuple[Trajectory, Array, Exception | None]:
+    """Return a run in steps of at most a length [s], the states at its times, and what ended it early."""
+    loop = SteppedLoop(rotor, stations)
     count = max(1, math.ceil(duration / longest * (1.0 - 1e-12)))
     now, before = loop.begin(state), None
     record, error = _Record(loop, times), StepError(loop.clearances)
@@ -103,7 +138,7 @@ def simulate_steps(
         if wall.size:
             where = loop.nearest(gaps[wall[0]])
             text = f"journal{where} reached the wall at t = {kept.time[-1]:.9g} s"
-            raise ContactError(text, record.trajectory())
+            return record.trajectory(), record.states, ContactError(text)
         if made := len(stretch.time) - 1:
             progress = ahead[made - 1].then
             before, now = stretch.moment(-2, now.films), stretch.moment(-1, films_now)
@@ -111,20 +146,16 @@ def simulate_steps(
             loop.work["restarts"] += 1
             progress = progress._replace(halvings=progress.halvings + 1)
             if progress.halvings > HALVINGS:
-                told = failure, loop.nearest(gaps[-1]), float(gaps[-1].min())
-                raise _failed(*told, record.trajectory()) from failure
-    return replace(record.trajectory(), step_error=error.largest)
+                told = _failed(failure, loop.nearest(gaps[-1]), float(gaps[-1].min()))
+                return record.trajectory(), record.states, told
+    return replace(record.trajectory(), step_error=error.largest), record.states, None
 
 
-def _failed(
-    failure: Exception, where: str, gap: float, partial: Trajectory
-) -> ContactError | ConvergenceError:
+def _failed(failure: Exception, where: str, gap: float) -> ContactError | ConvergenceError:
     """Return what a step that cannot be made means, at a gap of so many clearances in a station."""
     if isinstance(failure, FilmContactError) or gap < AT_WALL:
-        return ContactError(
-            f"journal{where} reached the wall, {gap:.3g} of the clearance is left: {failure}", partial
-        )
-    return ConvergenceError(str(failure), partial)
+        return ContactError(f"journal{where} reached the wall, {gap:.3g} of the clearance is left: {failure}")
+    return ConvergenceError(str(failure))
 
 
 def part_of_turn(rotor: Dynamic, duration: float) -> float:
@@ -262,10 +293,15 @@ class _Record:
         self._outputs.append(steps.outputs[last] + s * (steps.outputs[now] - steps.outputs[last]))
         self._count = end
 
+    @property
+    def states(self) -> Array:
+        """The states of the rotor at the times that there are, shape (n, n_states)."""
+        return np.concatenate(self._states)
+
     def trajectory(self) -> Trajectory:
         """Return what there is."""
         rotor, time = self._loop.rotor, self._times[: self._count]
-        rows = self._loop.sensed(time, np.concatenate(self._states))
+        rows = self._loop.sensed(time, self.states)
         known = (
             *rotor.outputs,
             *(prefixed(s.name, one) for s in self._loop.stations for one in s.film.outputs),

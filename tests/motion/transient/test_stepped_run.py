@@ -22,11 +22,12 @@ from rotorfilm import (
     ShaftRotor,
     SpeedProfile,
     Station,
+    Unbalance,
     as_reaction,
     equilibrium,
     simulate,
 )
-from rotorfilm.analysis.stepped_run import StepError
+from rotorfilm.analysis.stepped_run import StepError, _stepped, stations_of
 
 R, c, mu, omega, mass = 0.05, 1e-4, 0.02, 314.0, 250.0
 TOP = Groove(center=np.pi / 2, width=np.radians(20.0), length=0.04)
@@ -157,6 +158,37 @@ def test_a_shaft_takes_a_film_in_each_station():
         simulate(shaft, FILM, **given)
     with pytest.raises(InputError, match=r"reaction\['right'\] must be a film with a time step of its own"):
         simulate(shaft, {"left": FILM, "right": BEARING}, **given)
+
+
+@pytest.mark.parametrize("fails", [False, True], ids=["to its end", "to the wall"])
+def test_a_long_shaft_steps_in_few_of_its_shapes(fails):
+    """Within 1e-5 of the clearance of the steps of all of it, also where it reaches the wall."""
+    steel = ElasticMaterial(young_modulus=2.1e11, shear_modulus=8.1e10, density=7850.0)
+    shaft = ShaftRotor(
+        elements=ShaftElement(length=1.2, outer_diameter=0.08, material=steel).split(24),
+        disks=(Disk(node=12, mass=80.0, diametral_inertia=0.8, polar_inertia=1.5),),
+        stations=(Station(name="left", node=0), Station(name="right", node=24)),
+        unbalances=(Unbalance(node=12, unbalance=50.0 if fails else 2e-3),),
+        speed=omega,
+    )
+    film = JFOFilm(bearing=dataclasses.replace(BEARING, viscosity=0.05), cells=(36, 4))
+    films, times = {"left": film, "right": film}, np.linspace(0.0, (1.0 if fails else 0.25) * TURN, 9)
+    step = TURN / 96
+    try:
+        few = simulate(shaft, films, duration=times[-1], times=times, max_step=step)
+        assert not fails
+    except ContactError as wall:
+        assert fails
+        few = wall.partial
+    stations = stations_of(shaft, films)
+    whole, _, failure = _stepped(shaft, stations, times, times[-1], shaft.initial_state, step)
+    assert (failure is not None) is fails
+    assert list(few.signals) == list(whole.signals)
+    assert len(few.time) == len(whole.time)
+    for name in ("left_x", "left_y", "right_x", "right_y"):
+        assert np.abs(few[name] - whole[name]).max() < 1e-5 * c
+    if not fails:
+        assert few.step_error == pytest.approx(whole.step_error, rel=1e-2)
 
 
 def test_the_wall_ends_a_run_with_what_there_is(rest):
