@@ -59,7 +59,9 @@ def main() -> None:
     """Print the table."""
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 24
     warm = shaft(count)
-    rotor_modes(warm, SPRINGS, SPEED), unbalance_response(warm, SPRINGS, [SPEED])  # imports
+    # Imports.
+    rotor_modes(warm, SPRINGS, SPEED), unbalance_response(warm, SPRINGS, [SPEED])
+    simulate(replace(warm, speed=SPEED), SPRINGS, duration=0.01)
     beside(count)
     print(f"{count} elements{'':16}{'CPU [ms]':>10}{'ROSS [ms]':>11}{'ratio':>8}{'apart':>10}  work")
     for row in rows(count):

@@ -54,6 +54,9 @@ from .threads import one_blas_thread
 LONGEST_TURN = 1.0
 """Longest step in turns of the shaft."""
 
+FEW_STATES = 240
+"""States of a rotor whose linear motion costs less in all of its modes than in the shapes that it needs."""
+
 FEW_TIMES, EVEN = 400, 4e-16
 """Times whose exponentials are all made, and by how much times at equal distances may be off, relative."""
 
@@ -155,7 +158,9 @@ def simulate_rotor(
         place = len(driven.rotor.states)
         begun, state = tuple(state[place : place + 2].tolist()), np.delete(state, [place, place + 1])
     run_of = partial(_run, rtol=rtol, max_step=max_step, begun=begun)
-    every = starts(driven, partial(_mounted, mounted.all_bearings), state, whole=condensation == 0.0)
+    joined = partial(_mounted, mounted.all_bearings)
+    few = len(state) <= FEW_STATES and is_steady_and_linear(joined(driven)[1])
+    every = starts(driven, joined, state, whole=few or condensation == 0.0)
     run = verified(every, run_of, grid, duration, condensation)
     for bearing in mounted.all_bearings.values():
         require_turned(bearing, mounted.bare, run.signals)
@@ -290,9 +295,7 @@ def linear_states(
     the unbalance. None where speed or bearings change, a journal may touch, or the modes do not say the
     motion to 1e-9.
     """
-    steady = parts.excited is None and parts.motor is None and len(set(parts.profile.speeds)) == 1
-    steady = steady and not any(math.isfinite(bearing.clearance) for bearing in parts.bearings)
-    if not steady or not all(is_constant(one) or parts.is_linear(one) for one in parts.bearings):
+    if not is_steady_and_linear(parts):
         return None
     speed, none = parts.speed, np.zeros(2)
     A, B, weight = compiled_rotor.state_matrices(parts, speed)
@@ -320,6 +323,13 @@ def linear_states(
         motion = rest[asked] + waves.real @ columns.real.T - waves.imag @ columns.imag.T
     found[:, asked] = motion
     return found if np.isfinite(motion).all() else None
+
+
+def is_steady_and_linear(parts: compiled_rotor.Parts) -> bool:
+    """Return whether neither speed nor bearings change, and nothing else excites the rotor."""
+    steady = parts.excited is None and parts.motor is None and len(set(parts.profile.speeds)) == 1
+    linear = (is_constant(one) or parts.is_linear(one) for one in parts.bearings)
+    return steady and all(linear) and not any(math.isfinite(one.clearance) for one in parts.bearings)
 
 
 def _shown_states(parts: compiled_rotor.Parts) -> np.ndarray:
