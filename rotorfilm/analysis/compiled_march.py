@@ -175,7 +175,7 @@ def _mounted(bearings: Mapping[str, Any], bare: Any) -> tuple[MountedRotor, comp
 
 
 def verified(
-    starts: Generator[compiled_rotor.Start, float, None],
+    starts: Generator[compiled_rotor.RunStart, float, None],
     run_of: Callable[..., tuple[Trajectory, Array, Array, Exception | None]],
     grid: Array,
     duration: float,
@@ -218,7 +218,7 @@ def _at(run: Trajectory, grid: Array) -> Trajectory:
 
 
 def _run(
-    start: compiled_rotor.Start,
+    start: compiled_rotor.RunStart,
     grid: Array,
     *,
     duration: float,

@@ -770,7 +770,7 @@ CONVERGENCE_POWER = 2.0
 """Power of their frequency with which the motion of neglected shapes is expected to fall."""
 
 
-class Start(NamedTuple):
+class RunStart(NamedTuple):
     """A rotor in some of its shapes, or whole.
 
     Attributes
@@ -792,7 +792,7 @@ class Start(NamedTuple):
 
 def starts(
     bare: Any, joined: Callable[[Any], tuple[Any, Parts]], state: Array, *, whole: bool
-) -> Generator[Start, float, None]:
+) -> Generator[RunStart, float, None]:
     """Yield a rotor in ever more of its shapes, and whole in the end or at once.
 
     It is to be sent how many times too large the motion of the neglected shapes was.
@@ -814,10 +814,10 @@ def starts(
             small: Any = MatrixRotor(rotor, model.structure)
             run, parts = joined(small if rotor is bare else replace(bare, rotor=small))
             begun = _within(model, state)
-            excess = yield Start(run, parts, begun, neglected_motion(model, parts, state, begun))
+            excess = yield RunStart(run, parts, begun, neglected_motion(model, parts, state, begun))
             doublings = max(1, round(math.log2(excess) / CONVERGENCE_POWER)) if math.isfinite(excess) else 1
             frequency = max(frequency, 1.0) * 2.0**doublings
-    yield Start(*joined(bare), state, None)
+    yield RunStart(*joined(bare), state, None)
 
 
 def _within(model: Condensed, state: Array) -> Array:

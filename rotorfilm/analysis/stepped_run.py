@@ -34,7 +34,7 @@ from ..native.structs import structure
 from ..rotors import FlexibleRotor, MountedRotor, RigidRotor
 from ..rotors.structure import freedom_rows, prefixed, station_names
 from .compiled_march import highest_speed, verified
-from .compiled_rotor import CONTACT_GAP, Parts, Start, is_linear, starts
+from .compiled_rotor import CONTACT_GAP, Parts, RunStart, is_linear, starts
 from .force_calls import of_station
 
 STEPS_A_TURN = 384
@@ -103,7 +103,7 @@ def simulate_steps(
         return bare, Parts(structure, bare.profile, *every, rows)
 
     def run_of(
-        start: Start, at: Array, *, duration: float
+        start: RunStart, at: Array, *, duration: float
     ) -> tuple[Trajectory, Array, Array, Exception | None]:
         found = stations_of(start.rotor, films)
         run, states, failure = _stepped(start.rotor, found, at, duration, start.state, longest)
