@@ -4,19 +4,15 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Generator, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from ctypes import addressof, byref, c_double, c_int32, c_int64
-from dataclasses import replace
 from enum import IntEnum
-from functools import lru_cache, partial
-from itertools import chain, pairwise
-from typing import Any, NamedTuple
+from functools import partial
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
-from numpy.polynomial.polynomial import polyfromroots
 from numpy.typing import ArrayLike
-from scipy.linalg import block_diag
-from scipy.special import roots_jacobi
 
 from ..core.errors import (
     ContactError,
@@ -30,17 +26,18 @@ from ..core.errors import (
 from ..core.inputs import arguments
 from ..core.limits import STEPS as MOST_STEPS, TURNS, require_at_most
 from ..core.model import Array, Dynamic, breakpoints
-from ..core.port import freedoms_of, inertial, is_constant, require_turned, static_slopes
+from ..core.port import freedoms_of, require_turned
 from ..core.results import Trajectory
 from ..core.signals import indices, names, units
 from ..native.film_call import FilmCall
 from ..native.library import loops
 from ..native.structs import constant, structure
 from ..rotors import FlexibleRotor, MotorDrivenRotor, MountedRotor, RigidRotor, SpeedProfile, mount
-from ..rotors.structure import freedom_rows, output_rows, prefixed
+from ..rotors.structure import prefixed
 from . import compiled_rotor
 from .bearing_forces import bearing_forces
-from .compiled_rotor import modes, starts
+from .collocation import STAGES, ModalArrays, StepTable, radau_scheme, stages_of
+from .condensed_runs import RunStart, starts, verified
 from .force_calls import (
     has_states_in_c,
     of_station,
@@ -49,6 +46,7 @@ from .force_calls import (
     warn_beyond,
     warn_of_thin_films,
 )
+from .linear_runs import is_steady_and_linear, linear_states
 from .threads import one_blas_thread
 
 LONGEST_TURN = 1.0
@@ -56,15 +54,6 @@ LONGEST_TURN = 1.0
 
 FEW_STATES = 240
 """States of a rotor whose linear motion costs less in all of its modes than in the shapes that it needs."""
-
-FEW_TIMES, EVEN = 400, 4e-16
-"""Times whose exponentials are all made, and by how much times at equal distances may be off, relative."""
-
-CHECKED = 401
-"""Times at which the neglected shapes of a run are looked at, at least."""
-
-TRIAL_SHARE = 0.125
-"""Share of a run in which shapes are tried before the whole of it runs."""
 
 
 @one_blas_thread
@@ -174,51 +163,8 @@ def _mounted(bearings: Mapping[str, Any], bare: Any) -> tuple[MountedRotor, comp
     return mounted, compiled_rotor.take_apart(mounted, over_time=True)
 
 
-def verified(
-    starts: Generator[compiled_rotor.RunStart, float, None],
-    run_of: Callable[..., tuple[Trajectory, Array, Array, Exception | None]],
-    grid: Array,
-    duration: float,
-    condensation: float,
-) -> Trajectory:
-    """Return the first run whose neglected shapes move the journals little enough, or that of the whole.
-
-    `run_of` takes a start, times and duration, and returns the run, the states at its times, angle, speed and
-    acceleration there, and what ended it early, which is raised with what there is.
-    """
-    # The journals are looked at more often than at the times that are asked for.
-    dense = np.union1d(grid, np.linspace(0.0, duration, CHECKED))
-    tried = TRIAL_SHARE * duration
-    work: Counter[str] = Counter()
-    start = next(starts)
-    while True:
-        excess = 0.0
-        first, whole = (dense[dense <= tried], tried), (dense, duration)
-        trials = [first, whole] if start.neglected is not None else [(grid, duration)]
-        for times, until in trials:
-            run, states, turn, failure = run_of(start, times, duration=until)
-            work.update(run.work)
-            if start.neglected is not None:
-                excess = start.neglected.largest(run, states, turn) / condensation
-            if not excess <= 1.0:
-                break
-        if excess <= 1.0:
-            break
-        start = starts.send(excess)
-    picked = replace(_at(run, grid), work=dict(work))
-    if failure is not None:
-        raise type(failure)(str(failure), picked) from failure
-    return picked
-
-
-def _at(run: Trajectory, grid: Array) -> Trajectory:
-    """Return a run at those of its times that are on a grid."""
-    kept = np.isin(run.time, grid)
-    return replace(run, time=run.time[kept], signals={name: row[kept] for name, row in run.signals.items()})
-
-
 def _run(
-    start: compiled_rotor.RunStart,
+    start: RunStart,
     grid: Array,
     *,
     duration: float,
@@ -279,234 +225,6 @@ def _trajectory(
         signals |= zip((signal.name for signal in known), rows, strict=True)
         shown += known
     return Trajectory(time=time, signals=signals, work=work, units=units(shown))
-
-
-# A rotor on springs and dampers at constant speed: its motion is known at any time without a step.
-
-
-def linear_states(
-    parts: compiled_rotor.Parts, state: Array, grid: Array, *, whole: bool = True
-) -> Array | None:
-    """Return the states at the times of a grid, shape (n, 2 N), of a rotor whose equations are linear.
-
-    Those that no output shows are 0 unless the `whole` of them is asked for.
-
-    With A V = V Lambda, x(t) = x0 + Re(p exp(i w t)) + Re(V exp(Lambda t) c), x0 at rest, p the response to
-    the unbalance. None where speed or bearings change, a journal may touch, or the modes do not say the
-    motion to 1e-9.
-    """
-    if not is_steady_and_linear(parts):
-        return None
-    speed, none = parts.speed, np.zeros(2)
-    A, B, weight = compiled_rotor.state_matrices(parts, speed)
-    slopes = [
-        np.zeros((2, 4)) if parts.is_linear(bearing) else static_slopes(bearing, none, none, speed)[:, :4]
-        for bearing in parts.bearings
-    ]
-    A = A + B[:, :-2] @ (block_diag(*slopes) @ compiled_rotor.journal_rows(parts))
-    turn = abs(speed)
-    values, shapes, inverse, condition = modes(A, parts.scale(turn or 1.0))
-    if not condition < compiled_rotor.GOOD_CONDITION * max(1.0, len(A) / compiled_rotor.GOOD_SIZE) ** 2:
-        return None
-    turning = B[:, -2:] @ (speed**2 * np.array([1.0, -1.0j * np.sign(speed)]))
-    try:
-        rest = -np.linalg.solve(A, weight)
-        driven = np.linalg.solve(1j * turn * np.eye(len(A)) - A, turning)
-    except np.linalg.LinAlgError:
-        return None
-    begun = inverse @ (state - rest - driven.real)
-    asked = np.arange(len(rest)) if whole else _shown_states(parts)
-    found = np.zeros((len(grid), len(rest)))
-    with np.errstate(over="ignore", invalid="ignore"):
-        waves = exponentials(np.append(values, 1j * turn), grid)
-        columns = np.column_stack([shapes * begun, driven])[asked]
-        motion = rest[asked] + waves.real @ columns.real.T - waves.imag @ columns.imag.T
-    found[:, asked] = motion
-    return found if np.isfinite(motion).all() else None
-
-
-def is_steady_and_linear(parts: compiled_rotor.Parts) -> bool:
-    """Return whether neither speed nor bearings change, and nothing else excites the rotor."""
-    steady = parts.excited is None and parts.motor is None and len(set(parts.profile.speeds)) == 1
-    linear = (is_constant(one) or parts.is_linear(one) for one in parts.bearings)
-    return steady and all(linear) and not any(math.isfinite(one.clearance) for one in parts.bearings)
-
-
-def _shown_states(parts: compiled_rotor.Parts) -> np.ndarray:
-    """Return the places of those states of which the outputs of rotor and bearings are made."""
-    structure, n = parts.structure, len(parts.structure.weight)
-    if len(parts.scale(1.0)) > 2 * n or any(inertial(one) is not None for one in parts.bearings):
-        return np.arange(len(parts.scale(1.0)))
-    felt = [
-        freedom_rows(structure, name, freedoms_of(one))
-        for name, one in zip(parts.names, parts.bearings, strict=False)
-    ]
-    used = np.any(np.vstack([*np.hsplit(output_rows(structure), 2), *felt]), axis=0)
-    return np.flatnonzero(np.tile(used, 2))
-
-
-def exponentials(values: compiled_rotor.Complex, times: Array) -> compiled_rotor.Complex:
-    """Return exp(value t) at times, shape (n_times, n_values); of even times by products of few of them."""
-    count, block = len(times), max(1, math.isqrt(len(times)))
-    step = (times[-1] - times[0]) / max(1, count - 1)
-    even = times[0] + step * np.arange(count)
-    if count < FEW_TIMES or np.abs(times - even).max() > EVEN * abs(times[-1]):
-        return np.exp(np.outer(times, values))
-    ahead, within = np.arange(0, count, block), np.arange(block)
-    coarse, fine = np.exp(np.outer(times[0] + step * ahead, values)), np.exp(np.outer(step * within, values))
-    return (coarse[:, None] * fine).reshape(-1, len(values))[:count]
-
-
-# Steps of a rotor in modes under forces that are polynomials of time (`native/loops/collocation.h`).
-
-
-STAGES, MORE_STAGES, ACCURATE = 4, 8, 1e-11
-"""Collocation nodes of a step: order 7; and order 15 for local errors below the last number."""
-
-
-def stages_of(rtol: float) -> int:
-    """Return the collocation nodes with which a local error costs least."""
-    return MORE_STAGES if rtol < ACCURATE else STAGES
-
-
-class Collocation(NamedTuple):
-    """Nodes of a step and polynomials on them, coefficients by rising power.
-
-    Attributes
-    ----------
-    nodes : ndarray, shape (s,)
-        Nodes of Radau's right rule.
-    lagrange : ndarray, shape (s, s)
-    remainder : ndarray, shape (s + 1,)
-        The polynomial that vanishes at the nodes and is 1 at the start.
-    """
-
-    nodes: Array
-    lagrange: Array
-    remainder: Array
-
-    def struct(self) -> Any:
-        """Return it as the C library reads it, while this object lives."""
-        return structure("rf_scheme")(len(self.nodes), *(numbers.ctypes.data for numbers in self))
-
-
-@lru_cache(maxsize=8)
-def radau_scheme(stages: int) -> Collocation:
-    """Return the scheme of so many nodes."""
-    # The inner nodes are the zeros of Jacobi's polynomial of weight 1 - x on [0, 1].
-    inner = 0.5 * (1.0 + roots_jacobi(stages - 1, 1.0, 0.0)[0])
-    nodes = np.append(inner, 1.0)
-    # Products over positive nodes have no cancellation, which an inverse of their powers has.
-    others = [np.delete(nodes, k) for k in range(stages)]
-    lagrange = [polyfromroots(rest) / np.prod(node - rest) for node, rest in zip(nodes, others, strict=True)]
-    remainder = polyfromroots(nodes)
-    return Collocation(nodes, np.array(lagrange), remainder / remainder[0])
-
-
-class ModalArrays(NamedTuple):
-    """The modes of a rotor as the C library reads them.
-
-    Attributes
-    ----------
-    values, push, sense : ndarray of complex
-        Values, push and sense as for a `ModalRotor`. Where films have states, `sense` goes on with these, and
-        `push` has their rates behind the forces. Where a bearing adds a mass,
-        `sense` goes on with ax, ay of each journal, and on a motor with the acceleration of the unbalance.
-        There `push` ends with zeros, for the angular acceleration.
-    direct : ndarray, shape (n_rows, n_channels), or None
-        These accelerations per force at the same moment; None without.
-    rates : ndarray of complex, shape (n_accelerations, n_modes), or None
-        These accelerations per rate of the modal coordinates; None without.
-    """
-
-    values: compiled_rotor.Complex
-    push: compiled_rotor.Complex
-    sense: compiled_rotor.Complex
-    direct: Array | None = None
-    rates: compiled_rotor.Complex | None = None
-
-    @classmethod
-    def of(cls, modal: compiled_rotor.ModalRotor) -> ModalArrays:
-        """Return those of a rotor."""
-        sense, push, direct = modal.sense, modal.push, None
-        every = [sense.reshape(-1, 2, 2, len(modal.values))[:, 1].reshape(-1, len(modal.values))]
-        if modal.parts.motor:
-            every.append(compiled_rotor.unbalance_rates(modal))
-            push = np.column_stack([push, np.zeros(len(push))])
-        if inner := [*chain(*modal.parts.film_states)]:
-            push = np.insert(push, [len(sense) // 2], modal.inverse[:, inner], axis=1)
-            sense = np.vstack([sense, modal.shapes[inner]])
-        rates = np.vstack(every[not modal.is_heavy :]) if modal.is_heavy or modal.parts.motor else None
-        if rates is not None:
-            direct = np.vstack([np.zeros((len(sense), push.shape[1])), (rates @ push).real])
-            sense = np.vstack([sense, rates * modal.values])
-            rates = np.ascontiguousarray(rates, dtype=complex)
-        rows = modal.values, push, sense
-        values, push, sense = (np.ascontiguousarray(row, dtype=complex) for row in rows)
-        return cls(values, push, sense, direct, rates)
-
-    def struct(self) -> Any:
-        """Return them as the C library reads them, while this object lives."""
-        places = (None if numbers is None else numbers.ctypes.data for numbers in self)
-        return structure("rf_modes")(*self.push.shape, len(self.sense), *places)
-
-
-class StepTable(NamedTuple):
-    """What one length of a step needs, of s nodes.
-
-    Attributes
-    ----------
-    move : ndarray, shape (s rows, 2 n_modes)
-        Motion of the journals at the nodes per real and imaginary part of the modal coordinates.
-    gain : ndarray, shape (s, s, rows, channels)
-        The same at a node per force at each node.
-    defect : ndarray, shape (s, rows, channels)
-        The same per gap of the force at the start.
-    keep : ndarray of complex, shape (n_modes,)
-        Modal coordinates at the end per themselves.
-    forced : ndarray, shape (2 n_modes, s channels)
-        Their real and imaginary parts per force at each node.
-    turn : ndarray of complex, shape (s, n_modes), or None
-        Modal coordinates at the nodes per themselves; None where the modes are those of the speed.
-    weights : ndarray of complex, shape (s, s + 1, n_modes), or None
-        The same per drive at each node, and per gap of it at the start.
-    """
-
-    move: Array
-    gain: Array
-    defect: Array
-    keep: compiled_rotor.Complex
-    forced: Array
-    turn: compiled_rotor.Complex | None
-    weights: compiled_rotor.Complex | None
-
-    @classmethod
-    def unfilled(cls, rotor: ModalArrays, stages: int, *, spins: bool = False) -> StepTable:
-        """Return a table that is to be filled."""
-        modes, channels = rotor.push.shape
-        rows = len(rotor.sense)
-        return cls(
-            np.empty((stages * rows, 2 * modes)),
-            np.empty((stages, stages, rows, channels)),
-            np.empty((stages, rows, channels)),
-            np.empty(modes, dtype=complex),
-            np.empty((2 * modes, stages * channels)),
-            np.empty((stages, modes), dtype=complex) if spins else None,
-            np.empty((stages, stages + 1, modes), dtype=complex) if spins else None,
-        )
-
-    @classmethod
-    def of_step(cls, rotor: ModalArrays, scheme: Collocation, step: float) -> StepTable:
-        """Return the table of a length of step [s]."""
-        table = cls.unfilled(rotor, len(scheme.nodes))
-        arguments = byref(rotor.struct()), byref(scheme.struct()), step, byref(table.struct())
-        if loops()["rf_set_step_table"](*arguments):
-            raise MemoryError("no memory for the tables of a step")
-        return table
-
-    def struct(self) -> Any:
-        """Return it as the C library reads it, while this object lives."""
-        return structure("rf_step_table")(*(None if part is None else part.ctypes.data for part in self))
 
 
 # The driver of the compiled integration: scheme, tables, what ends a run.

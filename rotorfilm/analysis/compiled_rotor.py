@@ -12,9 +12,8 @@ a rotor that is free to move would have no complete set of modes. Of each conjug
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from ctypes import byref
-from dataclasses import replace
 from typing import Any, NamedTuple, cast
 
 import numpy as np
@@ -43,17 +42,13 @@ from ..rotors import (
 )
 from ..rotors.structure import (
     NOMINAL_LENGTH,
-    MatrixRotor,
     Operators,
     Structure,
     freedom_rows,
-    mean_plane,
     solved_equations,
     station_name,
 )
 from .force_calls import CrackForce, call_over_time, feels_tilt, film_call, has_states_in_c
-from .modal_reduction import Condensed, models
-from .rotor_matrices import FASTER, unbalanced
 
 # A rotor as the bearings see it: its linear part in modes, whatever its size, and the forces it feels.
 
@@ -271,7 +266,7 @@ def point_rows(bearing: Any) -> Array:
     )
 
 
-def _rows(structure: Structure, names: Sequence[str], bearings: Sequence[Any], *, tilted: bool) -> Array:
+def place_rows(structure: Structure, names: Sequence[str], bearings: Sequence[Any], *, tilted: bool) -> Array:
     """Return the displacements of journals, or of two points of each: of its ends where it feels its tilt."""
     each = []
     for name, bearing in zip(names, bearings, strict=True):
@@ -336,7 +331,10 @@ def take_apart(mounted: MountedRotor, *, over_time: bool = False) -> Parts:
     for name in names:
         planar = not (tilted and feels_tilt(found[name]))
         port.require_reaction(f"bearings[{name!r}]", found[name], heavy=True, planar=planar)
-    rows = [_rows(structure, names, bearings, tilted=tilted), *(one.rotor.weakness[0] for one in cracked)]
+    rows = [
+        place_rows(structure, names, bearings, tilted=tilted),
+        *(one.rotor.weakness[0] for one in cracked),
+    ]
     every = *bearings, *cracked
     parts = Parts(
         structure,
@@ -754,152 +752,3 @@ def is_linear(rotor: Dynamic, *, over_time: bool = False) -> bool:
     if isinstance(bare, FlexibleRotor) and bare.assembly.others:
         return False
     return base is not None and all(getattr(type(bare), name) is getattr(base, name) for name in EQUATIONS)
-
-
-# A shaft of many elements in as few shapes as a run over time needs.
-
-
-FREQUENCY = 4.0
-"""Frequency of the fewest shapes / largest speed."""
-
-SUDDEN = 2.0
-"""Ratio of the response of a shape to a force that begins at once to that to a slow one."""
-
-
-CONVERGENCE_POWER = 2.0
-"""Power of their frequency with which the motion of neglected shapes is expected to fall."""
-
-
-class RunStart(NamedTuple):
-    """A rotor in some of its shapes, or whole.
-
-    Attributes
-    ----------
-    rotor : Any
-        As it is to be run.
-    parts : Parts
-    state : ndarray
-        Its state at t = 0.
-    neglected : NeglectedMotion or None
-        What the shapes do not show; None if it is whole.
-    """
-
-    rotor: Any
-    parts: Parts
-    state: Array
-    neglected: NeglectedMotion | None
-
-
-def starts(
-    bare: Any, joined: Callable[[Any], tuple[Any, Parts]], state: Array, *, whole: bool
-) -> Generator[RunStart, float, None]:
-    """Yield a rotor in ever more of its shapes, and whole in the end or at once.
-
-    It is to be sent how many times too large the motion of the neglected shapes was.
-
-    Parameters
-    ----------
-    bare : Dynamic
-        The rotor without its bearings.
-    joined : callable
-        Returns such a rotor with its bearings, as it is to be run, and its parts.
-    state : ndarray
-        State of the whole at t = 0.
-    whole : bool
-    """
-    rotor = bare.rotor if type(bare) is MotorDrivenRotor else bare
-    if not whole and isinstance(rotor, FlexibleRotor) and rotor.assembly.hysteresis is None:
-        frequency = FREQUENCY * bare.nominal_speed
-        while (model := next(models(rotor, frequency))).space is not None:
-            small: Any = MatrixRotor(rotor, model.structure)
-            run, parts = joined(small if rotor is bare else replace(bare, rotor=small))
-            begun = _within(model, state)
-            excess = yield RunStart(run, parts, begun, neglected_motion(model, parts, state, begun))
-            doublings = max(1, round(math.log2(excess) / CONVERGENCE_POWER)) if math.isfinite(excess) else 1
-            frequency = max(frequency, 1.0) * 2.0**doublings
-    yield RunStart(*joined(bare), state, None)
-
-
-def _within(model: Condensed, state: Array) -> Array:
-    """Return what of a state (2 N,) the shapes have, which are of unit mass."""
-    assert model.space is not None
-    mass, shapes = mean_plane(model.whole.mass), model.space.shapes
-    count = 2 * len(model.whole.weight)
-    parts = np.split(state[:count], 4)
-    return np.concatenate([*(shapes.T @ (mass @ part) for part in parts), state[count:]])
-
-
-class NeglectedMotion(NamedTuple):
-    """How the shapes that a run neglects answer what its shapes do not balance, at the journals.
-
-    The forces of the bearings in the run, the unbalance and the weight act on the whole rotor too. What the
-    motion in the shapes leaves of them bends the neglected shapes, as slow forces do.
-
-    Attributes
-    ----------
-    parts : Parts
-        The rotor in its shapes.
-    by_motion : ndarray, shape (2 n_points, 5 n)
-        Displacement of the points of the journals per acceleration, velocity, velocity times speed, place,
-        place times speed in the n shapes.
-    by_force : ndarray, shape (2 n_points, 2 n_points + 3)
-        Displacement per force on the points, per unit of the unbalance's acceleration and by the weight.
-    begun : ndarray, shape (n_points,) [m]
-        Displacement of the points at t = 0, at most, by what of the initial state the shapes do not have.
-    """
-
-    parts: Parts
-    by_motion: Array
-    by_force: Array
-    begun: Array
-
-    def largest(self, run: Trajectory, states: Array, turn: Array) -> float:
-        """Return the largest displacement of a journal at the times of a run, in clearances.
-
-        Parameters
-        ----------
-        run : Trajectory
-            Run of the rotor in its shapes.
-        states : ndarray, shape (n_times, 2 n)
-        turn : ndarray, shape (3, n_times)
-            Angle, speed and angular acceleration.
-        """
-        parts, time, speed = self.parts, run.time, turn[1][:, None]
-        forces = np.column_stack([*point_forces(parts, run), turning_pairs(turn), np.ones(len(time))])
-        steady, push, weight = state_matrices(parts.alone, 0.0)
-        states = states[:, : len(steady)]
-        place, velocity = np.hsplit(states, 2)
-        pushed = forces @ np.column_stack([push, weight]).T
-        by_speed = solved_equations(parts.structure).by_speed
-        rates = states @ steady.T + speed * (states @ by_speed.T) + pushed
-        motion = np.hstack([rates[:, place.shape[1] :], velocity, speed * velocity, place, speed * place])
-        away = (forces @ self.by_force.T - motion @ self.by_motion.T).reshape(len(time), -1, 2)
-        away = np.hypot(away[..., 0], away[..., 1]).max(axis=0, initial=0.0)
-        return float(((SUDDEN * FASTER * away + self.begun) / parts.lengths).max())
-
-
-def neglected_motion(model: Condensed, parts: Parts, state: Array, begun: Array) -> NeglectedMotion:
-    """Return how neglected shapes move the journals of a rotor in a model of it.
-
-    Parameters
-    ----------
-    model : Condensed
-    parts : Parts
-        The rotor in this model.
-    state, begun : ndarray, shape (2 N,), (2 n,)
-        Initial state of the whole rotor and of the model.
-    """
-    assert model.space is not None
-    whole, shapes = model.whole, model.lifted(np.eye(len(model.structure.weight)))
-    journals = _rows(whole, parts.names, parts.bearings, tilted=parts.points > 1)
-    matrices = whole.mass, whole.damping, whole.gyroscopic, whole.stiffness, whole.circulation
-    columns = [*(matrix @ shapes for matrix in matrices), journals.T, whole.unbalance, whole.weight[:, None]]
-    heavy = whole.mass @ shapes
-    left = [unbalanced(part, shapes, heavy) for part in (journals.T, np.hstack(columns))]
-    found = left[0].T @ model.answer(left[1])
-    split = len(matrices) * shapes.shape[1]
-    ends = 2 * len(whole.weight), 2 * shapes.shape[1]
-    missing = zip(np.split(state[: ends[0]], 2), np.split(begun[: ends[1]], 2), strict=True)
-    place, velocity = (journals @ (full - model.lifted(some)) for full, some in missing)
-    size = np.hypot(*place.reshape(-1, 2).T) + np.hypot(*velocity.reshape(-1, 2).T) / model.space.cut
-    return NeglectedMotion(parts, found[:, :split], found[:, split:], size)

@@ -21,7 +21,7 @@ from ..core.signals import PLANAR
 from ..rotors import FlexibleRotor, MountedRotor, RigidRotor, mount
 from ..rotors.structure import MatrixRotor, station_name
 from . import harmonic_balance
-from .compiled_march import ModalArrays
+from .collocation import ModalArrays
 from .compiled_rotor import Complex, ModalRotor, journal_rows, modal_rotor, modes, take_apart
 from .equilibrium import equilibrium
 from .modal_reduction import FEW, Condensed, models

@@ -30,7 +30,7 @@ from ..core.signals import PLANAR
 from ..rotors import FlexibleRotor, MountedRotor, RigidRotor, mount
 from ..rotors.mounted import Mount
 from ..rotors.structure import NOMINAL_LENGTH, MatrixRotor, station_name
-from .compiled_march import STAGES, ModalArrays, StepTable, radau_scheme
+from .collocation import STAGES, ModalArrays, StepTable, radau_scheme
 from .compiled_rotor import LARGEST_CONDITION, Complex, modes
 from .equilibrium import equilibrium
 from .force_calls import film_samples

@@ -33,8 +33,9 @@ from ..native.library import loops
 from ..native.structs import structure
 from ..rotors import FlexibleRotor, MountedRotor, RigidRotor
 from ..rotors.structure import freedom_rows, prefixed, station_names
-from .compiled_march import highest_speed, verified
-from .compiled_rotor import CONTACT_GAP, Parts, RunStart, is_linear, starts
+from .compiled_march import highest_speed
+from .compiled_rotor import CONTACT_GAP, Parts, is_linear
+from .condensed_runs import RunStart, starts, verified
 from .force_calls import of_station
 
 STEPS_A_TURN = 384

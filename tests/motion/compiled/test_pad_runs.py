@@ -12,7 +12,9 @@ from scipy.integrate import DOP853, Radau
 import rotorfilm as rf
 from rotorfilm.analysis.compiled_rotor import takes_forces
 from rotorfilm.analysis.force_calls import film_samples
-from rotorfilm.rotors import CrackedRotor, GaschHinge, JeffcottCrack, LinearMotor, MotorDrivenRotor
+from rotorfilm.rotors import MotorDrivenRotor
+
+from .beside_scipy import HEAVY_OIL, MOTOR, SEAL, cracked, long_shaft, require_same_motion
 
 PADS = rf.TiltingPadBearing(
     radius=0.05,
@@ -39,22 +41,6 @@ SHAFT = rf.RigidShaft(
     speed=PROFILE,
 )
 THREE = replace(SHAFT, stations=(*SHAFT.stations, ("mid", 0.1), ("seal", 0.2)))
-HEAVY_OIL = rf.SqueezeFilmDamper(
-    radius=0.05, length=0.02, clearance=1e-4, viscosity=0.02, density=800.0, extent=rf.FullFilm()
-)
-SEAL = rf.FrequencyDependentReaction(
-    A=[[-400.0, 150.0], [-90.0, -700.0]],
-    B=[[1.0, 0.5], [-0.4, 1.0]],
-    C=[[2e8, -1e8], [1e8, 3e8]],
-    D=[[2e5, 4e4], [-5e4, 3e5]],
-    damping=[[300.0, 0.0], [20.0, 400.0]],
-)
-CRACKED = CrackedRotor(
-    rotor=rf.JeffcottRotor(mass=20.0, journal_mass=2.0, stiffness=2e7, unbalance=1e-4, speed=PROFILE),
-    crack=JeffcottCrack(reduction=0.3),
-    breathing=GaschHinge(edge=0.8),
-)
-MOTOR = LinearMotor(stall_torque=300.0, idle_speed=420.0)
 
 CASES = {
     "rigid pivots": (RIGID, {"": PADS}, DOP853),
@@ -68,7 +54,7 @@ CASES = {
         {"left": PADS, "right": PADS},
         DOP853,
     ),
-    "crack": (CRACKED, {"": PADS}, DOP853),
+    "crack": (cracked(PROFILE), {"": PADS}, DOP853),
     "stations in another order": (SHAFT, {"right": SPRUNG, "left": PADS}, DOP853),
     "added mass and linear states": (
         THREE,
@@ -93,30 +79,16 @@ def test_the_compiled_motion_is_that_of_scipy(case):
     reference = rf.simulate(
         rotor, bearings, rtol=1e-9 if method is Radau else 1e-12, method=method, **settings
     )
-    assert "rejected" in run.work
-    assert set(run.signals) == set(reference.signals)
-    for name, signal in reference.signals.items():
-        size = np.ptp(signal) or 1.0
-        assert np.abs(run[name] - signal).max() < 1e-6 * size, name
-
-
-def long_shaft(count):
-    steel = rf.ElasticMaterial(young_modulus=2.1e11, shear_modulus=8.1e10, density=7850.0)
-    return rf.ShaftRotor(
-        elements=rf.ShaftElement(length=1.2, outer_diameter=0.08, material=steel).split(count),
-        stations=(rf.Station(name="left", node=0), rf.Station(name="right", node=count)),
-        unbalances=(rf.Unbalance(node=count // 2, unbalance=1e-3),),
-        speed=PROFILE,
-    )
+    require_same_motion(run, reference, 1e-6)
 
 
 def test_a_shaft_of_many_elements_is_condensed_and_its_shapes_are_tried(monkeypatch):
-    mounted = rf.mount(long_shaft(20), {"left": PADS, "right": SPRUNG})
+    mounted = rf.mount(long_shaft(20, PROFILE), {"left": PADS, "right": SPRUNG})
     settings = {"duration": 0.01, "samples": 21, "rtol": 1e-6}
     few, whole = (rf.simulate_rotor(mounted, condensation=share, **settings) for share in (1e-5, 0.0))
     for name in ("left_x", "right_y", "left_tilt_1", "right_pivot_2"):
         assert np.abs(few[name] - whole[name]).max() < 2e-5 * PADS.clearance, name
-    monkeypatch.setattr(sys.modules["rotorfilm.analysis.compiled_march"], "TRIAL_SHARE", 1.0)
+    monkeypatch.setattr(sys.modules["rotorfilm.analysis.condensed_runs"], "TRIAL_SHARE", 1.0)
     tried = rf.simulate_rotor(mounted, condensation=1e-5, **settings)
     assert few.work["steps"] < 0.8 * tried.work["steps"]
 

@@ -27,9 +27,10 @@ from rotorfilm import (
     simulate,
     simulate_rotor,
 )
-from rotorfilm.analysis import compiled_rotor
+from rotorfilm.analysis import condensed_runs
 from rotorfilm.analysis.compiled_march import March, stretches
-from rotorfilm.analysis.compiled_rotor import NeglectedMotion, modal_rotor, take_apart
+from rotorfilm.analysis.compiled_rotor import modal_rotor, take_apart
+from rotorfilm.analysis.condensed_runs import NeglectedMotion
 
 FILM = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 SPRINGS = LinearBearing(stiffness=((2e6, 5e5), (-5e5, 3e6)), damping=800.0)
@@ -240,7 +241,7 @@ def told(monkeypatch):
 def test_the_whole_shaft_under_the_forces_of_a_run_has_its_journals(told, monkeypatch):
     rotor = overhung(350.0, 18)
     rotor = replace(rotor, initial=tuple(at_rest(rotor, 350.0)))
-    monkeypatch.setattr(compiled_rotor, "FREQUENCY", 0.2)
+    monkeypatch.setattr(condensed_runs, "FREQUENCY", 0.2)
     away, ends = [], []
     for condensation in (1.0, 5e-5, 1e-5):
         run = simulate_rotor(both(rotor, FILM), duration=0.02, samples=2001, condensation=condensation)

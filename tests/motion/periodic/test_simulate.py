@@ -30,7 +30,8 @@ from rotorfilm import (
     simulate,
     simulate_rotor,
 )
-from rotorfilm.analysis.compiled_march import March, radau_scheme
+from rotorfilm.analysis.collocation import radau_scheme
+from rotorfilm.analysis.compiled_march import March
 from rotorfilm.analysis.compiled_rotor import modal_rotor, take_apart
 from rotorfilm.bearings.reaction import StaticReaction
 
