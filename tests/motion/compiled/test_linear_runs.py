@@ -49,9 +49,8 @@ def test_a_linear_run_is_the_exponential_of_its_matrix(count, mid):
     whole[:size, size:] = np.column_stack([held, first - held, second - held])
     whole[size + 1 :, size + 1 :] = [[0.0, -300.0], [300.0, 0.0]]
     scale = np.ones(size + 3)
-    scale[len(shaft.states) // 2 : len(shaft.states)] = (
-        1e5  # the rates: expm loses digits in a matrix of large and small entries
-    )
+    # Expm loses digits in a matrix of large and small entries, as those of rates and places.
+    scale[len(shaft.states) // 2 : len(shaft.states)] = 1e5
     begun = np.array([*mounted.initial_state, 1.0, 1.0, 0.0]) / scale
     state = scale * (expm(0.05 * whole * scale / scale[:, None]) @ begun)
     outputs = mounted.output(0.05, state[:size], none)
